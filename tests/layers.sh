@@ -15,8 +15,9 @@ allowedFor() {
     case $1 in
     base) echo base ;;
     simd) echo base simd ;;
-    isa) echo base simd isa image $siblings scene film integrate ;;
+    isa) echo base simd isa image denoise $siblings scene film integrate ;;
     image) echo base image ;;
+    denoise) echo base simd isa image denoise ;;
     desc) echo base desc material ;;
     read) echo base desc image read ;;
     accel | sample) echo base simd isa image "$1" ;;
@@ -25,7 +26,7 @@ allowedFor() {
     scene) echo base isa image desc $siblings scene ;;
     film) echo base image scene film ;;
     integrate) echo base simd isa image desc $siblings scene film integrate ;;
-    render) echo base simd isa image desc $siblings scene film integrate render ;;
+    render) echo base simd isa image denoise desc $siblings scene film integrate render ;;
     verify) echo base isa image desc $siblings scene film integrate render verify ;;
     cli) echo base isa image desc read $siblings scene film integrate render verify cli ;;
     main) echo base cli ;;

@@ -31,6 +31,15 @@ void printAdvice(const RenderSettings& settings, const Options& options) {
     using Sampler = SettingsDesc::Sampler;
     const auto samples = static_cast<unsigned>(settings.picture.samplesPerPixel);
     const Sampler sampler = settings.picture.sampler;
+    if (!options.quiet && settings.picture.denoise) {
+        if (samples < 8)
+            writeStderr("raytracer: note: fewer than 8 samples per pixel hardly tell noise from "
+                        "what is seen; --denoise works better with more\n");
+        if (samples % 4 != 0)
+            writeStderr(cat("raytracer: note: --denoise makes four parts of ", samples / 4,
+                            " samples per pixel each; ", samples % 4, " of ", samples,
+                            " are left out\n"));
+    }
     if (options.quiet || (sampler != Sampler::Sobol && sampler != Sampler::ZSobol) ||
         std::has_single_bit(samples))
         return;

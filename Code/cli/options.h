@@ -49,6 +49,7 @@ struct Options {
     std::optional<double> filterGlossy;
     std::optional<double> clampIndirect;
     std::optional<bool> caustics;
+    std::optional<bool> denoise;
     // --error; samplesPerPixel is then the most, as with --time and --passes.
     std::optional<double> error;
     ErrorUnit errorUnit = ErrorUnit::Display;

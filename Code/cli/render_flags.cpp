@@ -159,6 +159,10 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .help = "light that reaches what is diffuse by way of mirrors and glass; path "
                        "tracing only",
                .set = [&o](const FlagValue& v) { o.caustics = v.on; }, .negatable = true});
+    group.add({.name = "--denoise",
+               .help = "pixels become means of those around them that differ by no more than noise "
+                       "explains; its error is estimated",
+               .set = [&o](const FlagValue& v) { o.denoise = v.on; }, .negatable = true});
     group.add({.name = "--sampler", .argument = alternatives<SettingsDesc::Sampler>(),
                .help = "how samples are spread; corners: one ray through each corner of a pixel, "
                        "shared with its neighbours; zsobol: finer noise, for previews of few samples",

@@ -162,6 +162,9 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
                 : "";
         writeStderr(cat("wrote ", join(files), " (", size.width, "x", size.height, ", ", samples,
                         samples == "1" ? " sample" : " samples", " per pixel", error, ", ",
+                        stats.denoisedError ? cat("denoised, estimated error ",
+                                                  significant(*stats.denoisedError), ", ")
+                                            : std::string(),
                         durationText(stats.totalSeconds), ")\n"));
     }
     printStats(stats, {options.scene, output, size, options.arguments}, options);

@@ -1,9 +1,11 @@
 #include "cli/settings_from.h"
 
+#include "base/enum_names.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/output.h"
+#include "desc/enum_tables.h"
 #include "desc/names.h"
 #include "image/image.h"
 
@@ -76,6 +78,7 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     set(picture.filterGlossy, options.filterGlossy);
     set(picture.clampIndirect, options.clampIndirect);
     set(picture.caustics, options.caustics);
+    set(picture.denoise, options.denoise);
     set(picture.sampler, options.sampler);
     set(picture.textureFilter, options.textureFilter);
     // Corners lie apart already; more samples serve lights, lens and motion only.
@@ -97,6 +100,26 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     picture.jitter = false;
     picture.filter = SettingsDesc::Filter::Box;
     picture.filterWidth = 0;
+}
+
+// Two halves of two parts each are made.
+void checkDenoising(SettingsDesc& picture, const Options& options) {
+    if (!picture.denoise) return;
+    using Integrator = SettingsDesc::Integrator;
+    const Integrator shown = picture.integrator;
+    if (shown != Integrator::Whitted && shown != Integrator::Path && shown != Integrator::Ao) {
+        if (options.denoise)
+            failUsage(cat("--denoise has no use with the integrator ", nameOf(shown),
+                          ", whose picture has no light in it"));
+        picture.denoise = false; // the scene means its picture of light
+        return;
+    }
+    if ((options.error || options.seconds || options.passes) && options.action == Options::Action::Render)
+        failUsage("--denoise and --error, --time or --passes do not go together: their samples are "
+                  "chosen by the noise; --no-denoise or --spp helps");
+    if (picture.samplesPerPixel < 4)
+        failUsage(cat("--denoise needs 4 or more samples per pixel, not ", picture.samplesPerPixel,
+                      ": their differences show what is noise; --spp 4 or --no-denoise helps"));
 }
 
 // All samples of a picture are one sequence along the Z-order of a square, whose numbers have 32
@@ -175,6 +198,8 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();
     settings.background = options.background;
     settings.aovs = options.aovs;
+    if (options.action != Options::Action::Convert)
+        checkDenoising(settings.picture, options);
     setRefinement(settings, options);
     checkSampleNumbers(settings.picture);
     settings.textureFolder = options.textureFolder;

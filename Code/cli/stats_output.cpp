@@ -161,6 +161,8 @@ std::string statsTable(const Stats& s) {
         table.row("unsure blocks", grouped(s.error->unsureBlocks),
                   "(one sample is a tenth of their light)");
     }
+    if (s.denoisedError)
+        table.row("denoised: estimated error", significant(*s.denoisedError), "(RMSE as shown)");
     table.heading("numeric");
     table.row("nan samples", grouped(s.nanSamples));
     table.row("degenerate primitives", grouped(s.degeneratePrimitives));
@@ -204,6 +206,7 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
         all.add("capped_pixels", s.error->cappedPixels);
         all.add("unsure_blocks", s.error->unsureBlocks);
     }
+    if (s.denoisedError) all.add("error_estimate_denoised", *s.denoisedError);
     all.add("samples", samples.text()).add("numeric", numeric.text());
     return all.text() + "\n";
 }

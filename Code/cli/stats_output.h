@@ -23,6 +23,7 @@ std::string mebibytes(std::uint64_t bytes);
 std::string statsTable(const Stats& stats);
 
 // One object on one line; scripts rely on its keys, which tests/unit/test_stats_output.cpp lists
-// (error_estimate, error_goal and capped_pixels only with --error). Numbers that are not finite
+// (error_estimate, error_goal and capped_pixels only with --error, error_estimate_denoised only with
+// --denoise). Numbers that are not finite
 // become null.
 std::string statsJson(const Stats& stats, const RunFacts& run);

@@ -61,6 +61,7 @@ constexpr auto kSettings = std::to_array<Property>({
     {"clamp_indirect", field<&SettingsDesc::clampIndirect>(), {}, kColor},
     {"caustics", field<&SettingsDesc::caustics>(), {}, {}},
     {"cutoff", field<&SettingsDesc::cutoff>(), {}, kUnit},
+    {"denoise", field<&SettingsDesc::denoise>(), {}, {}},
     {"sampler", field<&SettingsDesc::sampler>(), {}, {}},
     {"jitter", field<&SettingsDesc::jitter>(), {}, {}},
     {"seed", field<&SettingsDesc::seed>(), {}, kAnyUnsigned},

@@ -275,6 +275,7 @@ struct SettingsDesc {
     double clampIndirect = 0;   // path tracing: the most radiance behind the first bounce; 0 any
     bool caustics = true;       // path tracing: diffuse light by way of mirrors and glass
     double cutoff = 1.0 / 2048; // rays that change no pixel by more than this are not traced
+    bool denoise = false;
     Sampler sampler = Sampler::Sobol;
     bool jitter = true;
     std::uint32_t seed = 0;

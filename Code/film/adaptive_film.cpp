@@ -14,6 +14,14 @@ AdaptiveFilm::AdaptiveFilm(const Tile& area, const RenderSettings& settings, con
         aovs_[a].reset(area.width(), area.height(), units.aovs[a]);
 }
 
+void AdaptiveFilm::setLeast(int column, int row, int samples) {
+    const int x = std::max(column * NoiseMap::kGroupSide, area_.x0);
+    const int y = std::max(row * NoiseMap::kGroupSide, area_.y0);
+    if (x < area_.x1 && y < area_.y1 && (column + 1) * NoiseMap::kGroupSide > area_.x0 &&
+        (row + 1) * NoiseMap::kGroupSide > area_.y0)
+        noise_.setLeast(x, y, std::max(samples, Refinement::kFirstSamples));
+}
+
 std::vector<SamplePlan::Part> AdaptiveFilm::nextPass(ThreadPool& pool) {
     // A block is changed by its parts, which follow each other.
     std::vector<std::size_t> changed;

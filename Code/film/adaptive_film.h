@@ -20,6 +20,9 @@ public:
     AdaptiveFilm(const AdaptiveFilm&) = delete;
     AdaptiveFilm& operator=(const AdaptiveFilm&) = delete;
 
+    // The group of 4 x 4 pixels at this column and row of the picture gets at least so many samples.
+    void setLeast(int column, int row, int samples);
+
     // Returns the parts of the picture that get samples now; none: it is done. All parts of the pass before
     // have been added.
     std::vector<SamplePlan::Part> nextPass(ThreadPool& pool);

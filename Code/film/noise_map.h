@@ -28,6 +28,7 @@ public:
     struct Group {
         int samples = 0;             // of each pixel
         int pixels = 0;
+        int least = Refinement::kFirstSamples; // that it has before errors decide
         // Sums of the squared errors of pixels and channels: as it is told, and by what it is decided.
         double told = kInfinity, squares = kInfinity;
         float largest = 0;           // of the samples, the largest sum of the channels
@@ -50,6 +51,8 @@ public:
     // `area` is that of the picture, in pixels.
     NoiseMap(const Tile& area, const ErrorMeasure& measure);
 
+    // The group of a pixel has at least so many samples before errors decide.
+    void setLeast(int x, int y, int samples) { groups_[groupIndex(x, y)].least = samples; }
     // A part within a block gets as many samples more of each pixel: `before` are the sums of the picture,
     // `batch` those of the part alone, `largest` the largest of the samples' sums of channels. Threads may add
     // different parts at a time.

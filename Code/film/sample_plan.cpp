@@ -52,7 +52,7 @@ double boundOf(const Block& b) {
 // The first samples come in doublings too. A pass of one sample is what a picture has at least when its time
 // is over.
 int SamplePlan::batchOf(const Group& g) const {
-    const int first = goal_.hasShortPasses() ? 1 : firstSamples() / 2;
+    const int first = goal_.hasShortPasses() ? 1 : std::min(Refinement::kFirstSamples, goal_.mostSamples) / 2;
     return std::min(g.samples == 0 ? first : g.samples, goal_.mostSamples - g.samples);
 }
 
@@ -75,7 +75,7 @@ bool SamplePlan::isUnsure(const Block& b) const {
 
 bool SamplePlan::isChosen(const Group& g, const Choice& choice, bool isUnsureBlock) const {
     if (isFull(g)) return false;
-    if (g.samples < firstSamples() || isUnsureBlock) return true;
+    if (g.samples < g.least || isUnsureBlock) return true;
     return (g.squares > 0 && stepOf(gainOf(g)) > choice.level);
 }
 

@@ -64,7 +64,6 @@ private:
     // Returns the sum of squared errors that pixels of the goal's error have.
     double wantedSquares(double pixels) const { return goal_.error ? sqr(*goal_.error) * 3 * pixels : 0; }
     bool isFull(const NoiseMap::Group& group) const { return group.samples >= goal_.mostSamples; }
-    int firstSamples() const { return std::min(Refinement::kFirstSamples, goal_.mostSamples); }
 
     Refinement goal_;
     Share share_;

@@ -19,7 +19,8 @@ std::span<const Isa> allIsas() {
          .supported = always,
          .pictures = &kOnePictures,
          .camera = &kOneCamera,
-         .shading = &kOneShading},
+         .shading = &kOneShading,
+         .denoise = &kOneDenoise},
     };
     return all;
 }

@@ -11,6 +11,7 @@
 #include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/triangle_surfaces_in_lanes.h"
 #include "camera/camera_in_lanes.h"
+#include "denoise/denoise_in_lanes.h"
 #include "isa/isa.h"
 #include "texture/pictures_in_lanes.h"
 
@@ -24,7 +25,7 @@ constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(), const ShadingKernel* shading) {
     return {name,     W,          supported,  &kTriangles, &kSolids,
-            &kPlaced, &kSurfaces, &kPictures, &kCamera,    shading};
+            &kPlaced, &kSurfaces, &kPictures, &kCamera,    shading, &kDenoise};
 }
 
 LANES_END

@@ -6,6 +6,7 @@
 #include <span>
 
 struct CameraLanes;
+struct DenoiseLanes;
 struct ShadingKernel;
 struct PictureLanes;
 struct PlacedKernel;
@@ -13,8 +14,8 @@ struct SolidKernel;
 struct SurfaceLanes;
 struct TriangleKernel;
 
-// A null table: plain code, which every machine has, does the work. Pictures, cameras and shading
-// have no other code than these, and are never null.
+// A null table: plain code, which every machine has, does the work. Pictures, cameras, shading
+// and denoising have no other code than these, and are never null.
 struct Isa {
     const char* name;              // as --kernel has it
     int width;                     // lanes of single precision
@@ -27,6 +28,7 @@ struct Isa {
     const PictureLanes* pictures = nullptr;    // texture/picture_lanes.h
     const CameraLanes* camera = nullptr;       // camera/camera_lanes.h
     const ShadingKernel* shading = nullptr;    // integrate/shading_kernel.h
+    const DenoiseLanes* denoise = nullptr;     // denoise/denoise_lanes.h
 
     int nodeWidth() const { return width == 16 ? 16 : 8; } // children of a node of its trees
 };

@@ -3,6 +3,8 @@
 #include "base/parallel.h"
 #include "film/canvas.h"
 #include "film/adaptive_film.h"
+#include "render/denoised.h"
+#include "render/thin_places.h"
 #include "render/tile_sampler.h"
 #include "scene/settings.h"
 
@@ -95,6 +97,12 @@ private:
     bool renderPasses(ThreadPool& pool, std::vector<TileWorker>& workers,
                       const RenderControl& control, Stats& stats) {
         AdaptiveFilm film(area_, settings_, sampler_.units());
+        const ThinPlaces thin(sampler_.context().scene, settings_.picture.width,
+                              settings_.picture.height, sampler_.reach());
+        static_assert(ThinPlaces::kSide == NoiseMap::kGroupSide);
+        for (int row = 0; row < thin.rows(); ++row)
+            for (int column = 0; column < thin.columns(); ++column)
+                film.setLeast(column, row, thin.samples(column, row));
         double told = 0; // progress never falls, though the work ahead may turn out to be more
         double secondsPerSample = 0;
         std::atomic<bool> allWhole = true;
@@ -152,7 +160,8 @@ private:
             paint(tile, worker);
             return true;
         }
-        if (!sampler_.trace(tile, 0, settings_.picture.samplesPerPixel, worker, stop)) return false;
+        if (!sampler_.trace(tile, settings_.firstSample,
+                            settings_.picture.samplesPerPixel, worker, stop)) return false;
         worker.color.writeMeans(worker.tile, 0, 0);
         paint(tile, worker);
         const Tile to = onCanvas(tile);
@@ -213,5 +222,6 @@ private:
 
 Picture render(const Scene& scene, const RenderSettings& settings, const RenderControl& control,
                Stats& stats) {
+    if (settings.picture.denoise) return renderDenoised(scene, settings, control, stats);
     return Renderer(scene, settings).run(control, stats);
 }

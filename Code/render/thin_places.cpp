@@ -126,10 +126,9 @@ public:
                     }
                 constexpr float kWhole = 0.98f;
                 if (most >= kWhole) continue;
-                // A strip covers three pixels of the nine by its width.
                 mark({{static_cast<double>(x), static_cast<double>(x + 1)},
                       {static_cast<double>(y), static_cast<double>(y + 1)}},
-                     static_cast<double>(sum) / 3, [](double, double) { return true; });
+                     static_cast<double>(sum), [](double, double) { return true; });
             }
     }
 
@@ -139,16 +138,17 @@ private:
         Extent x, y;
     };
 
-    // The least power of two that fills cells of half the width, in pixels.
-    static std::uint16_t samplesFor(double width) {
-        const double wanted = 4 / (width * width);
+    // Returns the least power of two of which twelve meet an area of so many pixels, on average, so that one at least
+    // does.
+    static std::uint16_t samplesFor(double area) {
+        const double wanted = 12 / area;
         if (!(wanted < ThinPlaces::kMostSamples)) return ThinPlaces::kMostSamples;
         return static_cast<std::uint16_t>(
             std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
     }
     // Marks blocks that touch a box and of which isHit(x, y) holds at their middles.
-    template <class IsHit> void mark(const Box& box, double width, const IsHit& isHit) {
-        const std::uint16_t samples = samplesFor(width);
+    template <class IsHit> void mark(const Box& box, double area, const IsHit& isHit) {
+        const std::uint16_t samples = samplesFor(area);
         if (samples <= 1) return;
         const auto range = [&](const Extent& extent, int blocks) {
             const double low = std::floor((extent.low - beyond_) / kSide),
@@ -172,6 +172,8 @@ private:
         if (outline.empty()) return;
         const Vec2d n = narrowestWay(outline);
         const double width = extentAlong(outline, n, false).size();
+        // Of what is long, as much counts as lies about one pixel.
+        const double length = std::min(extentAlong(outline, {-n.y, n.x}, false).size(), 2.0);
         const Extent strip = extentAlong(outline, n, true);
         const double more = kLeftOut * strip.size() + beyond_ +
                             kSide * 0.5 * (std::fabs(n.x) + std::fabs(n.y));
@@ -180,7 +182,7 @@ private:
             const double left = kLeftOut * extent->size();
             extent->low -= left, extent->high += left;
         }
-        mark(box, width, [&](double x, double y) {
+        mark(box, width * length, [&](double x, double y) {
             const double at = x * n.x + y * n.y;
             return at > strip.low - more && at < strip.high + more;
         });

@@ -12,9 +12,9 @@
 class ThinPlaces {
 public:
     static constexpr int kSide = 4; // pixels of a block, each way
-    // The most samples that are asked for. A net of 256 has one in each cell of 1/16 x 1/16, and a
-    // square of 1/8 has all of such a cell in it.
-    static constexpr std::uint16_t kMostSamples = 256;
+    // The most samples that are asked for. A net of 1024 has one in each cell of 1/32 x 1/32, and a
+    // disk of 1/8 has all of such a cell in it. What is long needs fewer, as it lies in many cells.
+    static constexpr std::uint16_t kMostSamples = 1024;
 
     // Of a picture of width x height pixels. `reach`: how far from the middle of its pixel a sample
     // may be, in pixels. With a moving camera no place is known. Things that move count by their

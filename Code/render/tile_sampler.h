@@ -33,6 +33,7 @@ public:
 
     bool throughCorners() const { return cameraRays_.throughCorners(); }
     const IntegratorContext& context() const { return context_; }
+    double reach() const { return cameraRays_.reach(); }
     const FilmUnits& units() const { return units_; }
 
     // Traces samples begin .. begin + samples - 1 of all places of the tile, into the worker's

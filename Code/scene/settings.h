@@ -61,6 +61,8 @@ struct RenderSettings {
     // Picture::codes is to take the place of Picture::color where it can: all that is wanted of it
     // is a file of 8 bits, with the exposure as it is.
     bool onlyCodes = false;
+    // The number of the first sample of each pixel, of pictures that are part of one.
+    int firstSample = 0;
     // Off: every step is done for every scene, needed or not (the yardstick of T17 and of timings).
     bool specialise = true;
     std::string textureFolder; // --textures DIR; searched after the scene's own folder

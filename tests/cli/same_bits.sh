@@ -85,6 +85,24 @@ expect 'zsobol: too many samples' 1 '5000x300 pixels can have at most 64 samples
 expect 'zsobol: too many pixels' 1 '65535x1 pixels can have at most 1 samples' \
     many.txt b.pfm --sampler zsobol --resolution 65535x1 --spp 2
 
+# The filter, too, and the picture of a scene that asks for it.
+run 0 many.txt a.pfm -q --denoise --threads 1
+same 'denoised: 3 threads' --denoise -t3
+same 'denoised: one lane' --denoise --kernel scalar
+same 'denoised: AOVs beside it' --denoise --aov depth,albedo
+run 0 many.txt --convert copy.txt --denoise
+run 0 copy.txt b.pfm -q
+check 'denoised: as the scene says' cmp a.pfm b.pfm
+run 0 many.txt b.pfm --denoise --stats=json
+check 'denoised: its error in the last line' has err 'denoised, estimated error'
+check 'denoised: its error in the statistics' has out '"error_estimate_denoised":0.'
+expect 'denoised: too few samples' 1 'needs 4 or more samples per pixel, not 2' many.txt b.pfm --denoise --spp 2
+expect 'denoised: an error goal' 1 'do not go together' many.txt b.pfm --denoise --error 0.1
+expect 'denoised: normals' 1 'no use with the integrator normal' many.txt b.pfm --denoise --integrator normal
+run 0 copy.txt b.pfm -q --integrator normal
+run 0 copy.txt c.pfm -q --integrator normal --no-denoise
+check 'denoised: other integrators stay' cmp b.pfm c.pfm
+
 # An advice is no warning.
 expect 'advice about samples' 0 'a power of two (8)' many.txt b.pfm --spp 7 --strict
 

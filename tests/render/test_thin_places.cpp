@@ -44,8 +44,10 @@ int markedOf(const ThinPlaces& places) {
 std::uint16_t samplesAt(const ThinPlaces& places, Vec2d pixel) {
     return places.samples(static_cast<int>(pixel.x / 4), static_cast<int>(pixel.y / 4));
 }
-// So many that a square of this width has a cell of the net in it.
-double wanted(double width) { return std::min(256.0, 4 / (width * width)); }
+// So many that a disk of an eighth of a pixel has a cell of the net in it, and twelve samples meet what is longer.
+double wanted(double width, double length) {
+    return std::min(1024.0, 12 / (width * std::min(length, 2.0)));
+}
 
 // A box or a tube along a random direction in the picture: half of its sides in pixels.
 std::string turned(const std::string& kind, Random& random, Vec3d at, double depth, Vec2d half) {
@@ -91,7 +93,8 @@ TEST(thin_places_find_an_eighth_of_a_pixel) {
         const ThinPlaces places = placesOf(camera() + body);
         // Beside the middle of the picture the depth of a box is seen as well.
         const bool hasDepth = i % 4 == 1 || i % 4 == 2;
-        if (samplesAt(places, pixel) >= wanted(width * (hasDepth ? 1.6 : 1))) continue;
+        const double seen = hasDepth ? 1.6 : 1;
+        if (samplesAt(places, pixel) >= wanted(seen * width, seen * (hasDepth ? length : width))) continue;
         if (++missed <= 3)
             CHECK_INFO(false, i << ": width " << width << " at " << pixel.x << " " << pixel.y
                                 << " has " << samplesAt(places, pixel) << " samples\n"
@@ -130,7 +133,7 @@ TEST(thin_places_follow_a_wire) {
         camera() + cat("cylinder c {\n translate 0 10 0\n rotate 45 0 1 0\n scale ", kPixel, " ",
                        kPixel, " 100\n}\n"));
     for (int i = 1; i < kHeight - 1; ++i)
-        CHECK_EQUAL(samplesAt(places, {(kWidth - kHeight) / 2.0 + i, kHeight - 1.0 - i}), 128);
+        CHECK_EQUAL(samplesAt(places, {(kWidth - kHeight) / 2.0 + i, kHeight - 1.0 - i}), 32);
     CHECK(markedOf(places) <= 16 * 4);
 }
 
