@@ -12,6 +12,9 @@ using Block = NoiseMap::Block;
 constexpr double kAim = 0.95;
 // Where the clock ends the picture, a pass adds this part of the samples that there are.
 constexpr double kShortPass = 0.25;
+// Blocks whose light comes by single samples get so many at least. A mirror image of a lamp that one pixel alone sees is
+// not known from light that all of them lack, and no number of samples is certain to tell.
+constexpr int kSamplesToBeSure = 4 * Refinement::kFirstSamples;
 // A job of more samples than these is cut into rows of groups, so that all threads have work.
 constexpr double kSamplesOfJob = 1 << 16;
 // Of 100 blocks one may be worse than what a goal for the worst block says.
@@ -75,7 +78,7 @@ bool SamplePlan::isUnsure(const Block& b) const {
 
 bool SamplePlan::isChosen(const Group& g, const Choice& choice, bool isUnsureBlock) const {
     if (isFull(g)) return false;
-    if (g.samples < g.least || isUnsureBlock) return true;
+    if (g.samples < g.least || (isUnsureBlock && g.samples < kSamplesToBeSure)) return true;
     return (g.squares > 0 && stepOf(gainOf(g)) > choice.level);
 }
 

@@ -119,21 +119,29 @@ public:
             for (int x = 0; x < width_; ++x) {
                 if (!(covered(x, y) > 0)) continue;
                 float most = 0, sum = 0;
+                std::array<bool, 3> columns{}, rows{}; // where something is covered
                 for (int j = -1; j <= 1; ++j)
                     for (int i = -1; i <= 1; ++i) {
                         const float of = covered(x + i, y + j);
                         most = std::max(most, of), sum += of;
+                        columns[static_cast<std::size_t>(i + 1)] |= of > 0;
+                        rows[static_cast<std::size_t>(j + 1)] |= of > 0;
                     }
                 constexpr float kWhole = 0.98f;
                 if (most >= kWhole) continue;
+                const bool isLong = (columns[0] && columns[2]) || (rows[0] && rows[2]);
+                const double least = isLong ? kThinnest * kLongest : kThinnest * kThinnest;
                 mark({{static_cast<double>(x), static_cast<double>(x + 1)},
                       {static_cast<double>(y), static_cast<double>(y + 1)}},
-                     static_cast<double>(sum), [](double, double) { return true; });
+                     std::max(static_cast<double>(sum), least), [](double, double) { return true; });
             }
     }
 
 private:
     static constexpr int kSide = ThinPlaces::kSide;
+    // In pixels: what is thinner counts as if it were as wide as this, and of what is long so much counts, as lies
+    // about one pixel.
+    static constexpr double kThinnest = 1.0 / 8, kLongest = 2;
     struct Box {
         Extent x, y;
     };
@@ -171,9 +179,9 @@ private:
         const std::vector<OutlineDisk> outline = outlineOf(map_, body);
         if (outline.empty()) return;
         const Vec2d n = narrowestWay(outline);
-        const double width = extentAlong(outline, n, false).size();
-        // Of what is long, as much counts as lies about one pixel.
-        const double length = std::min(extentAlong(outline, {-n.y, n.x}, false).size(), 2.0);
+        const double width = std::max(extentAlong(outline, n, false).size(), kThinnest);
+        const double length =
+            std::clamp(extentAlong(outline, {-n.y, n.x}, false).size(), kThinnest, kLongest);
         const Extent strip = extentAlong(outline, n, true);
         const double more = kLeftOut * strip.size() + beyond_ +
                             kSide * 0.5 * (std::fabs(n.x) + std::fabs(n.y));
