@@ -57,8 +57,8 @@ public:
     // `batch` those of the part alone, `largest` the largest of the samples' sums of channels. Threads may add
     // different parts at a time.
     void add(const Tile& part, int samples, const Film& before, const Film& batch, float largest);
-    // Estimates a block anew from the sums that its pixels have now. Threads may do different blocks.
-    void update(std::size_t block, const Film& sums);
+    // Estimates a block, by its number, anew from the sums that its pixels have now. Threads may do different blocks.
+    void update(std::size_t number, const Film& sums);
 
     std::span<const Block> blocks() const { return blocks_; }
     // Returns the number of the block of a pixel.
@@ -107,7 +107,9 @@ private:
     template <class Fn> static void forEachPixel(const Block& block, const Fn& fn) {
         for (int y = block.area.y0; y < block.area.y1; ++y)
             for (int x = block.area.x0; x < block.area.x1; ++x)
-                fn(static_cast<std::size_t>(y % kBlockSide * kBlockSide + x % kBlockSide), x, y);
+                fn(static_cast<std::size_t>(y % kBlockSide) * kBlockSide +
+                       static_cast<std::size_t>(x % kBlockSide),
+                   x, y);
     }
     std::size_t groupIndex(int x, int y) const {
         const int column = x / kGroupSide - area_.x0 / kGroupSide;

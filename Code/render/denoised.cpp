@@ -74,7 +74,8 @@ private:
         double sum = 0, count = 0;
     };
     std::size_t indexOf(int x, int y) const {
-        return static_cast<std::size_t>(y / kSide * columns_ + x / kSide);
+        return static_cast<std::size_t>(y / kSide) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(x / kSide);
     }
     int columns_;
     std::vector<Block> blocks_;
@@ -145,8 +146,9 @@ Picture renderDenoised(const Scene& scene, const RenderSettings& settings,
     constexpr float kBrightest = 2;
     const auto exposure = static_cast<float>(exact::exp2(settings.picture.exposureEv));
     Denoised denoised = denoise(halves, kBrightest / exposure, *settings.isa, settings.threads);
+    const int samplesOfPart = settings.picture.samplesPerPixel / static_cast<int>(kParts);
     stats.samplesMin = stats.samplesMean = stats.samplesMax =
-        static_cast<double>(kParts) * (settings.picture.samplesPerPixel / static_cast<int>(kParts));
+        static_cast<double>(kParts) * samplesOfPart;
     stats.denoisedError = shownError(denoised, settings.picture);
     Picture picture;
     picture.aovs = joinedAovs(parts, settings);

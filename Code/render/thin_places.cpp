@@ -120,12 +120,12 @@ public:
                 if (!(covered(x, y) > 0)) continue;
                 float most = 0, sum = 0;
                 std::array<bool, 3> columns{}, rows{}; // where something is covered
-                for (int j = -1; j <= 1; ++j)
-                    for (int i = -1; i <= 1; ++i) {
-                        const float of = covered(x + i, y + j);
+                for (std::size_t j = 0; j < 3; ++j)
+                    for (std::size_t i = 0; i < 3; ++i) {
+                        const float of =
+                            covered(x - 1 + static_cast<int>(i), y - 1 + static_cast<int>(j));
                         most = std::max(most, of), sum += of;
-                        columns[static_cast<std::size_t>(i + 1)] |= of > 0;
-                        rows[static_cast<std::size_t>(j + 1)] |= of > 0;
+                        columns[i] |= of > 0, rows[j] |= of > 0;
                     }
                 constexpr float kWhole = 0.98f;
                 if (most >= kWhole) continue;

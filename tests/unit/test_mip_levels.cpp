@@ -18,7 +18,7 @@ StoredImage someFloats(Random& random, int width, int height, int channels) {
     StoredImage image;
     image.width = width, image.height = height, image.channels = channels;
     image.depth = StoredImage::Depth::Float;
-    const auto count = static_cast<std::size_t>(width * height * channels);
+    const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
     for (std::size_t i = 0; i < count; ++i)
         image.floats.push_back(static_cast<float>(random.uniform(0, 1)));
     return image;
@@ -26,7 +26,7 @@ StoredImage someFloats(Random& random, int width, int height, int channels) {
 StoredImage someBytes(Random& random, int width, int height, int channels) {
     StoredImage image;
     image.width = width, image.height = height, image.channels = channels;
-    const auto count = static_cast<std::size_t>(width * height * channels);
+    const auto count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(channels);
     for (std::size_t i = 0; i < count; ++i)
         image.bytes.push_back(static_cast<std::uint8_t>(random.below(256)));
     return image;
@@ -55,7 +55,7 @@ TEST(mip_levels_are_integrals_over_their_texels) {
         CHECK_EQUAL(half.height, halfHeight);
         const auto at = [](const StoredImage& of, int x, int y, int c) {
             return static_cast<double>(
-                of.floats[static_cast<std::size_t>((y * of.width + x) * of.channels + c)]);
+                of.floats[(static_cast<std::size_t>(y) * static_cast<std::size_t>(of.width) + static_cast<std::size_t>(x)) * static_cast<std::size_t>(of.channels) + static_cast<std::size_t>(c)]);
         };
         const bool hasAlpha = channels % 2 == 0;
         for (int y = 0; y < half.height; ++y)
