@@ -26,9 +26,11 @@ inline UvFootprint footprintAt(const Wave& wave, std::size_t k) {
     if (!wave.context.filtersTextures()) return {};
     const std::uint32_t i = wave.memory.points.ray[k];
     const Hit& hit = wave.memory.hits[i];
+    const float width = wave.memory.path.states[i].cone.widthAt(hit.t);
+    if (!(width > 0)) return {};
     const Shape& shape = *wave.context.scene.shapes().shapes[hit.shape];
     const PointBlock& block = wave.memory.points.at.block(k / PointBlock::kPoints);
-    return footprintOn(wave.memory.path.states[i].cone.widthAt(hit.t), wave.rays.dir[i],
+    return footprintOn(width, wave.rays.dir[i],
                        SurfaceBlock::get(block.ng, k % PointBlock::kPoints),
                        shape.derivatives(wave.rays.ray(i), hit));
 }

@@ -161,10 +161,12 @@ private:
             state.p = SurfaceBlock::get(of.at->p, i);
             state.n = (flags & kTransmits) != 0 ? Vec3{} : SurfaceBlock::get(of.at->n, i);
             const bool crosses = isTransmitted && (flags & kHasSides) != 0;
+            // What diffuse light shows of pictures is blurred as it is: single points cost less.
             if (context_.filtersTextures())
-                state.cone =
-                    waves::coneAfter(wave_, k, SurfaceBlock::get(block.dir, i), state.pdf,
-                                     crosses ? &boundaries_[i] : nullptr);
+                state.cone = isDiffuse
+                                 ? RayCone{}
+                                 : waves::coneAfter(wave_, k, SurfaceBlock::get(block.dir, i),
+                                                    state.pdf, crosses ? &boundaries_[i] : nullptr);
             memory_.next.push({SurfaceBlock::get(block.org, i), SurfaceBlock::get(block.dir, i), 0,
                                kInfinityF, rays.time[ray]},
                               rays.sample[ray], weight,
