@@ -197,10 +197,12 @@ private:
     }
 
     void addTriangle(const std::array<Vec3, 3>& corners) {
-        Body body;
-        for (const Vec3& corner : corners) body.push_back({toDouble(corner), 0});
-        const std::vector<OutlineDisk> outline = outlineOf(map_, body);
-        if (outline.size() != 3) return; // behind the camera, or so near that it is large
+        std::array<OutlineDisk, 3> outline;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const BodyBall corner{toDouble(corners[i]), 0};
+            if (!(map_.depth(corner.centre) > 0)) return; // behind the camera, or so near that it is large
+            outline[i] = map_.disk(corner);
+        }
         const Extent x = extentAlong(outline, {1, 0}, false),
                      y = extentAlong(outline, {0, 1}, false);
         if (!(x.high > 0 && y.high > 0 && x.low < width_ && y.low < height_)) return;
@@ -211,10 +213,19 @@ private:
                 static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
             front_.resize(pixels), back_.resize(pixels);
         }
-        cover({outline[0].centre, outline[1].centre, outline[2].centre}, y);
+        cover({outline[0].centre, outline[1].centre, outline[2].centre}, x, y);
     }
     // Adds the area of a triangle to the pixels that it touches.
-    void cover(const std::array<Vec2d, 3>& corners, const Extent& y) {
+    void cover(const std::array<Vec2d, 3>& corners, const Extent& x, const Extent& y) {
+        const Vec2d a = corners[1] - corners[0], b = corners[2] - corners[0];
+        const double whole = 0.5 * (a.x * b.y - a.y * b.x);
+        const auto add = [&](int i, int j, double area) {
+            std::vector<float>& side = area > 0 ? front_ : back_;
+            // Seen edge-on it is a line, which counts as hardly anything.
+            side[index(i, j)] += std::max(static_cast<float>(std::fabs(area)), 1e-20f);
+        };
+        if (std::floor(x.low) == std::floor(x.high) && std::floor(y.low) == std::floor(y.high))
+            return add(static_cast<int>(x.low), static_cast<int>(y.low), whole);
         const auto first = [](double at) { return std::max(0, static_cast<int>(at)); };
         const auto last = [](double at, int size) {
             return static_cast<int>(std::min(at, size - 1.0));
@@ -231,10 +242,7 @@ private:
                 part = row;
                 clip(part, {-1, 0}, -i), clip(part, {1, 0}, i + 1.0);
                 if (part.size() < 3) continue;
-                const double area = 0.5 * area2(part);
-                std::vector<float>& side = area > 0 ? front_ : back_;
-                // Seen edge-on it is a line, which counts as hardly anything.
-                side[index(i, j)] += std::max(static_cast<float>(std::fabs(area)), 1e-20f);
+                add(i, j, 0.5 * area2(part));
             }
         }
     }
