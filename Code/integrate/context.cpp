@@ -62,7 +62,7 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
 // Returns how many samples share a pixel: the more, the less each has to be the mean of. With a refinement
 // there are as many as are needed, and what filters leave out has to be below any goal.
 float samplesTogether(const RenderSettings& settings) {
-    constexpr int kWhenRefined = 64;
+    constexpr int kWhenRefined = 256;
     const int samples = settings.picture.samplesPerPixel;
     return static_cast<float>(settings.refinement ? std::max(samples, kWhenRefined) : samples);
 }
