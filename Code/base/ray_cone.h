@@ -13,9 +13,9 @@ struct RayCone {
     float spread = 0; // by which it widens per length: the full angle in radians
 
     float widthAt(float distance) const { return width + spread * distance; }
-    // The cone of a ray that goes on from there.
+    // Returns the cone of a ray that goes on from there.
     RayCone from(float distance) const { return {widthAt(distance), spread}; }
-    // Of light that is refracted from where the index is `eta` times that behind the surface: the
+    // Returns the cone of light that is refracted from where the index is `eta` times that behind the surface: the
     // product of the index, the width and the spread stays, and the width is that of the same spot
     // on the surface. The cosines are those before and behind it.
     RayCone refracted(float eta, float cosBefore, float cosBehind) const {
@@ -23,8 +23,8 @@ struct RayCone {
         const float narrower = std::sqrt(cosBehind / cosBefore);
         return {width * narrower, spread * eta / narrower};
     }
-    // Of a direction that was sampled with a density per steradian, of a lobe that so many samples
-    // of a pixel stand for together: each has its share of the sphere, and no more than
+    // Returns the cone of a direction that was sampled with a density per steradian, from a lobe that so many
+    // samples of a pixel stand for together: each has its share of the sphere, and no more than
     // kWidestSpread.
     RayCone scattered(float pdf, float inverseSamples) const {
         constexpr float kWidestSpread = 0.3f;

@@ -40,7 +40,7 @@ public:
     // [0,1] of the shutter. dir has unit length; tMin is where the ray passes clipStart.
     Ray ray(Vec2d pixel, Vec2 lens, float time) const;
 
-    // How wide the ray of a pixel is, as its direction and time say; a lens counts as a pinhole.
+    // Returns how wide the ray of a pixel is, as its direction and time say; a lens counts as a pinhole.
     RayCone cone(Vec3 dir, float time) const;
 
     // Unit vectors and the camera's place.

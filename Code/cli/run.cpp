@@ -49,7 +49,7 @@ Progress::Style progressStyle(const Options& options, const Terminal& terminal) 
     return bar ? Progress::Style::Bar : Progress::Style::Plain;
 }
 
-// About as long as pictures take to be written, as PNG, the slowest kind: 30 ns per pixel, and more pictures alike.
+// Returns about how long pictures take to be written: 30 ns per pixel as PNG, the slowest kind, and as much for each AOV.
 double secondsToWrite(const RenderSettings& settings) {
     const double pixels = static_cast<double>(settings.picture.width) * settings.picture.height;
     return 0.005 + 30e-9 * pixels * (1 + static_cast<double>(settings.aovs.size()));

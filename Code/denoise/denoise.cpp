@@ -16,7 +16,7 @@ namespace {
 constexpr int kPilotRadius = 3, kRadius = 10;
 static_assert(kRadius <= DenoisePlanes::kBorderLeft);
 // Means whose difference is larger than so many of its standard deviations are of different things.
-// Of 2.8 noise alone makes 0.5 % of the differences; what has been averaged has less noise, but as
+// At 2.8 noise alone makes 0.5 % of the differences; what has been averaged has less noise, but as
 // much of what is no noise.
 constexpr float kPilotDeviations = 2.8f, kDeviations = 1;
 // A pixel's noise is taken from so many pixels around it each way, without itself.

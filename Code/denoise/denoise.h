@@ -14,7 +14,7 @@
 #include <array>
 #include <cstddef>
 
-// Of some of the samples: linear values, and what their first hits are, black where there is none.
+// What some of the samples show: linear values, and their first hits, black where there is none.
 struct PartPicture {
     Image color, albedo, normal;
 };
@@ -27,7 +27,7 @@ struct Denoised {
     Image squaredError;
 };
 
-// All pictures have one size. What is above `brightest` counts as that in the estimated error.
-// The same bits for any kernel and number of threads.
+// Filters both halves; all pictures have one size. What is above `brightest` counts as that in the estimated
+// error. The bits are the same for any kernel and number of threads.
 Denoised denoise(const std::array<HalfPicture, 2>& halves, float brightest, const Isa& isa,
                  int threads);

@@ -77,8 +77,7 @@ public:
     const Place& at(int x, int y) const { return sums_[index(x, y)]; }
     // The mean of the place's samples, black where there are none, unrounded.
     Vec3d meanAt(int x, int y) const {
-        const Place& place = at(x, y);
-        return place.sum.value() / (perUnit_ * std::max(place.count, std::uint32_t{1}));
+        return exactMeanOf(at(x, y));
     }
     // The mean of the place's samples, black where there are none.
     Rgb mean(int x, int y) const { return meanOf(sums_[index(x, y)]); }
@@ -114,9 +113,12 @@ public:
     }
 
 private:
-    Rgb meanOf(const Place& place) const {
+    Vec3d exactMeanOf(const Place& place) const {
         const double count = std::max(place.count, std::uint32_t{1});
-        const Vec3 m = toFloat(place.sum.value() / (perUnit_ * count));
+        return place.sum.value() / (perUnit_ * count);
+    }
+    Rgb meanOf(const Place& place) const {
+        const Vec3 m = toFloat(exactMeanOf(place));
         return {m.x, m.y, m.z};
     }
     std::size_t index(int x, int y) const {

@@ -20,8 +20,8 @@ Vec3d halfDifference(const Film::Place& before, const Film::Place& batch) {
 
 float floatSizeOf(double x) { return static_cast<float>(std::fabs(x)); }
 
-// Of the pixels as of a chessboard: the error is told from those of one colour, and it is decided from the
-// others where samples go. Groups that look good by chance get none, so that what decides is too low in the end.
+// Pixels are coloured as a chessboard: the error is told from those of one colour, and the others decide where
+// samples go. Groups that look good by chance get none, so that what decides is too low in the end.
 constexpr std::size_t kTold = 0;
 // But groups of which one colour says so many times as much as the other are taken to be as bad as it says.
 constexpr double kOutlier = 9;
@@ -124,7 +124,7 @@ void NoiseMap::update(std::size_t number, const Film& sums) {
         g.squares = g.told = 0;
     });
 
-    // What each pixel's own D says, as an error for one sample, of either half of the pixels.
+    // Each pixel's own D gives an error for one sample, which is kept by the colour of the pixel.
     std::array<Halves, 2> halves{};
     const double toMean = 1 / std::sqrt(block.growth - 1);
     forEachPixel(block, [&](std::size_t at, int x, int y) {

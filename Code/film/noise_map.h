@@ -29,7 +29,8 @@ public:
         int samples = 0;             // of each pixel
         int pixels = 0;
         int least = Refinement::kFirstSamples; // that it has before errors decide
-        // Sums of the squared errors of pixels and channels: as it is told, and by what it is decided.
+        // Sums of the squared errors of pixels and channels: `told` by the pixels from which the error is told,
+        // `squares` by those that decide.
         double told = kInfinity, squares = kInfinity;
         float largest = 0;           // of the samples, the largest sum of the channels
         // Sums of D^2 over the group of the last three doublings, the latest first.

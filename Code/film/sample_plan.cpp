@@ -17,7 +17,7 @@ constexpr double kShortPass = 0.25;
 constexpr int kSamplesToBeSure = 4 * Refinement::kFirstSamples;
 // A job of more samples than these is cut into rows of groups, so that all threads have work.
 constexpr double kSamplesOfJob = 1 << 16;
-// Of 100 blocks one may be worse than what a goal for the worst block says.
+// One block of 100 may be worse than what a goal for the worst block says.
 constexpr std::size_t kBlocksPerWorse = 100;
 
 // Gains are sorted into steps of a quarter of an octave, and chosen by whole steps.

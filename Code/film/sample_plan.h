@@ -42,7 +42,7 @@ public:
         int min = 0, max = 0;
         double mean = 0;
         std::uint64_t cappedPixels = 0; // have all that they may have, and an error above the goal
-        // Of blocks whose light has come by one sample to a tenth or more, so that others may be missing.
+        // Counts blocks where one sample brought a tenth of the light or more, so that others may be missing.
         std::uint64_t unsureBlocks = 0;
     };
     Samples samples(const NoiseMap& noise) const;

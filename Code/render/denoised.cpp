@@ -10,7 +10,7 @@
 
 namespace {
 
-// Of these AOVs one part stands for all; of the others the mean.
+// Tells whether one part stands for all, since numbers of objects cannot be averaged.
 bool isOfOnePart(Aov aov) { return aov == Aov::Id; }
 
 constexpr std::size_t kParts = 4; // two of each half
@@ -38,7 +38,7 @@ const Image& aovOf(const Picture& picture, Aov aov) {
         ->image;
 }
 
-// Per value: of a picture as it is shown, the change by which a small one of the linear value shows.
+// Returns by how much a picture as it is shown changes per change of the linear value.
 // `reach` is how far values around this one are looked at.
 float slopeOf(float value, float reach, float exposure, bool isSrgb) {
     const auto shown = [&](float v) {
@@ -81,7 +81,7 @@ private:
     std::vector<Block> blocks_;
 };
 
-// The RMSE over pixels and channels of the picture as it is shown, 1 is white.
+// Returns the RMSE over pixels and channels of the picture as it is shown, 1 is white.
 double shownError(const Denoised& picture, const SettingsDesc& settings) {
     constexpr float kLeastReach = 0x1p-12f;
     const auto exposure = static_cast<float>(exact::exp2(settings.exposureEv));
@@ -101,7 +101,7 @@ double shownError(const Denoised& picture, const SettingsDesc& settings) {
     return std::sqrt(max(sum / (3.0 * static_cast<double>(picture.color.pixels().size())), 0.0));
 }
 
-// The AOVs that were asked for, of all parts.
+// Joins the AOVs that were asked for, of all parts.
 std::vector<AovImage> joinedAovs(std::array<Picture, kParts>& parts,
                                  const RenderSettings& settings) {
     std::vector<AovImage> joined;
@@ -142,7 +142,7 @@ Picture renderDenoised(const Scene& scene, const RenderSettings& settings,
         halves[p / 2][p % 2] = {parts[p].color, aovOf(parts[p], Aov::Albedo),
                                 aovOf(parts[p], Aov::Normal)};
     }
-    // Of what is above white no error shows, but one sample of it could be more than all others.
+    // Errors above white do not show, but one sample of it could be more than all others.
     constexpr float kBrightest = 2;
     const auto exposure = static_cast<float>(exact::exp2(settings.picture.exposureEv));
     Denoised denoised = denoise(halves, kBrightest / exposure, *settings.isa, settings.threads);

@@ -4,6 +4,6 @@
 
 #include "render/render.h"
 
-// As render(), of settings that ask for it; stats.denoisedError is known then.
+// Renders as render() does, for settings that ask for a denoised picture, and fills in stats.denoisedError.
 Picture renderDenoised(const Scene& scene, const RenderSettings& settings,
                        const RenderControl& control, Stats& stats);

@@ -15,7 +15,7 @@ struct BodyBall {
     Vec3d centre;
     double radius = 0;
 };
-// As seen: disks, which depth of field makes larger.
+// A disk is how the camera sees a ball; depth of field makes it larger.
 struct OutlineDisk {
     Vec2d centre;
     double radius = 0, blur = 0;
@@ -27,7 +27,7 @@ public:
     explicit PictureMap(const Camera& camera) : optics_(camera.optics()), axes_(camera.axesAt(0)) {}
 
     double depth(Vec3d p) const { return dot(p - axes_.eye, axes_.forward); }
-    // Of a ball in front of the camera.
+    // Returns the disk of a ball in front of the camera.
     OutlineDisk disk(const BodyBall& ball) const {
         const Vec3d from = ball.centre - axes_.eye;
         const double z = optics_.isPerspective ? dot(from, axes_.forward) : 1;
@@ -54,7 +54,7 @@ private:
 // The outline of a body, of the part in front of the camera; empty: it is behind.
 std::vector<OutlineDisk> outlineOf(const PictureMap& map, std::span<const BodyBall> body);
 
-// How far disks reach along a direction of unit length.
+// An extent says how far disks reach along a direction of unit length.
 struct Extent {
     double low = kInfinity, high = -kInfinity;
     double size() const { return high - low; }

@@ -64,7 +64,7 @@ Body bodyOf(const Bounds& box, const SolidForm& form) {
 
 // ---- triangles of meshes
 
-// The part of a convex polygon where n . p <= limit; kept in the order of its corners.
+// Keeps the part of a convex polygon where n . p <= limit; kept in the order of its corners.
 void clip(std::vector<Vec2d>& polygon, Vec2d n, double limit) {
     static thread_local std::vector<Vec2d> out;
     out.clear();
@@ -76,7 +76,7 @@ void clip(std::vector<Vec2d>& polygon, Vec2d n, double limit) {
     }
     polygon.swap(out);
 }
-// Twice the area, with the sign of the way around.
+// Returns twice the area, with the sign of the way around.
 double area2(const std::vector<Vec2d>& polygon) {
     double sum = 0;
     for (std::size_t i = 2; i < polygon.size(); ++i) {

@@ -16,14 +16,14 @@ public:
     // disk of 1/8 has all of such a cell in it. What is long needs fewer, as it lies in many cells.
     static constexpr std::uint16_t kMostSamples = 1024;
 
-    // Of a picture of width x height pixels. `reach`: how far from the middle of its pixel a sample
+    // Looks at a picture of width x height pixels. `reach`: how far from the middle of its pixel a sample
     // may be, in pixels. With a moving camera no place is known. Things that move count by their
     // boxes over the whole shutter, so that one which moves by more than it measures may be missed.
     ThinPlaces(const Scene& scene, int width, int height, double reach);
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
-    // How many well-spread samples each pixel of a block needs: a power of two; 1 where nothing is
+    // Returns how many well-spread samples each pixel of a block needs: a power of two; 1 where nothing is
     // thin.
     std::uint16_t samples(int column, int row) const { return samples_[index(column, row)]; }
 

@@ -113,7 +113,7 @@ Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dim
     return {unitFloat(x), unitFloat(y)};
 }
 
-// Of the kinds that are not in lanes.
+// Draws pairs of the kinds that are not in lanes.
 Vec2 Sampler::otherPair(std::uint64_t bits, std::uint64_t more, std::uint32_t sample,
                         bool isPixel) const {
     if (kind_ == SamplerKind::Random) {

@@ -41,9 +41,9 @@ public:
         std::uint32_t index, x, y;
     };
     PairSeeds pairSeeds(std::uint32_t pixel, std::uint32_t dimension) const;
-    // Of a sampler of the kind ZSobol: how it numbers its samples for a pair.
+    // Returns how a sampler of the kind ZSobol numbers its samples for a pair.
     ZOrder zOrder(std::uint32_t dimension) const;
-    // As many bits have the numbers of a pixel's samples.
+    // Returns how many bits the numbers of a pixel's samples have.
     int sampleBits() const { return static_cast<int>(std::bit_width(count_ - 1)); }
     // Of its pair, the x is what get1D() gives of `dimension`; of a sampler in lanes, too.
     static constexpr std::uint32_t alone(std::uint32_t dimension) {

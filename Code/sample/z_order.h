@@ -11,7 +11,7 @@ constexpr std::uint32_t spreadBits(std::uint32_t x) {
     x = (x | x << 2) & 0x33333333u;
     return (x | x << 1) & 0x55555555u;
 }
-// Of a pixel below 2^16 both ways.
+// Returns the place in the Z-order of a pixel below 2^16 both ways.
 constexpr std::uint32_t zNumber(std::uint32_t x, std::uint32_t y) {
     return spreadBits(x) | spreadBits(y) << 1;
 }

@@ -70,7 +70,7 @@ public:
     std::optional<double> spacing() const { return spacing_; }
     // Fills in what the scene knows: accelerator, features, degenerate primitives.
     void describe(Stats& stats) const;
-    // Of the mip levels that have been made so far.
+    // Returns the memory of the mip levels that have been made so far.
     std::uint64_t mipBytes() const;
 
 private:

@@ -29,7 +29,7 @@ inline PictureAxes axesOf(const TextureMap& map, Floats alongU, Floats alongV, F
     return {mapped(alongU, alongV), mapped(acrossU, acrossV)};
 }
 
-// Where W lanes look, and how finely.
+// Probes say where W lanes look, and how finely.
 struct Probes {
     static constexpr double kMost = 16;
     PicturePlaces way; // from end to end, in parts of the picture's sides
@@ -145,7 +145,7 @@ private:
         Floats3 plain{Floats(0.0f), Floats(0.0f), Floats(0.0f)}, seen = plain;
         Floats weight{0.0f}, covered{0.0f}, looks{0.0f};
 
-        // Of colours that alpha weights if more than one was looked at.
+        // Colours are weighted by alpha if more than one was looked at.
         Floats3 mean(bool weighsAlpha) const {
             const Floats3 all = plain / weight;
             if (!weighsAlpha) return all;

@@ -22,7 +22,7 @@ public:
     // Level `number`, from 1 to count() - 1, of the picture that this was made with. It has as many
     // channels as the picture, as floats in linear light.
     const TexelGrid& level(const TexelGrid& picture, int number) const;
-    // Of all levels that are there: at most 4/3 times 4 bytes for each channel of every fourth
+    // Returns the memory of all levels that are there: at most 4/3 times 4 bytes for each channel of every fourth
     // texel.
     std::uint64_t bytes() const;
 
