@@ -4,8 +4,9 @@
 #   all of them <- scene <- film <- integrate <- render <- verify <- cli <- main
 # The units of isa/ hold the kernels of accel/, texture/, camera/ and integrate/; isa/isa.h, which includes nothing of the
 # project, says what they do, and everything above base/ may include it.
-# A folder includes itself and what is below it, never its neighbours in a row but for two: a mesh is
-# a shape with a tree of its own, and lights, lenses, materials and skies spread their samples.
+# A folder includes itself and what is below it, never its neighbours in a row but for three: a mesh is
+# a shape with a tree of its own, a sky that is a light shows a picture, and lights, lenses, materials
+# and skies spread their samples.
 cd "$(dirname "$0")/../Code" || exit 1
 passed=0
 failed=0
@@ -22,7 +23,8 @@ allowedFor() {
     read) echo base desc image read ;;
     accel | sample) echo base simd isa image "$1" ;;
     shape) echo base isa image shape accel ;;
-    material | light | camera | texture) echo base simd image "$1" sample ;;
+    light) echo base simd image texture light sample ;;
+    material | camera | texture) echo base simd image "$1" sample ;;
     scene) echo base isa image desc $siblings scene ;;
     film) echo base image scene film ;;
     integrate) echo base simd isa image desc $siblings scene film integrate ;;

@@ -73,6 +73,15 @@ float footprintScaleOf(const Scene& scene, const RenderSettings& settings, bool 
     return isWanted ? kOfPixel / std::sqrt(samplesTogether(settings)) : 0;
 }
 
+bool mayRaysMeetLight(const Scene& scene) {
+    if (scene.pathLights().hasUnshaped() || scene.environment() != nullptr ||
+        !isBlack(scene.background(Rgb{1, 1, 1})))
+        return true;
+    for (std::size_t i = 0; i < scene.lobedMaterials().size(); ++i)
+        if ((scene.lobedMaterials()[i].flags & LobedMaterial::kEmits) != 0) return true;
+    return false;
+}
+
 } // namespace
 
 IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings& theSettings)
@@ -80,6 +89,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
               theSettings.picture.seed, theSettings.picture.jitter),
       cutoff(toFloat(theSettings.picture.cutoff)), wantsFirstHits(needsFirstHits(theSettings)),
+      raysMeetLight(!theSettings.specialise || mayRaysMeetLight(theScene)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       surfaceLanes(lanesOf(theSettings.isa->surfaces)), pictures(*theSettings.isa->pictures),
       checkers(theSettings.picture.textureFilter == SettingsDesc::TextureFilter::Mip

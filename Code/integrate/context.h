@@ -36,6 +36,7 @@ struct IntegratorContext {
     Sampler sampler;
     float cutoff; // rays with less weight are not traced
     bool wantsFirstHits;
+    bool raysMeetLight; // rays that lobes send may meet something that shines
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     const PictureLanes& pictures;

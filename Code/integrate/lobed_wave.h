@@ -19,10 +19,10 @@ class LobedWave {
 public:
     static constexpr std::size_t kPoints = PointBlock::kPoints;
 
-    explicit LobedWave(const Wave& wave)
+    LobedWave(const Wave& wave, const LampSampling& sampling)
         : wave_(wave), context_(wave.context), scene_(context_.scene), memory_(wave.memory),
           path_(memory_.path), lights_(scene_.pathLights()), materials_(scene_.lobedMaterials()),
-          limits_(context_.settings.picture) {}
+          limits_(context_.settings.picture), sampling_(sampling) {}
 
 protected:
     const PathState& stateOf(std::size_t ray) const { return path_.states[ray]; }
@@ -51,29 +51,37 @@ protected:
         if (sum > 3 * most) light = light * (3 * most / sum);
     }
 
-    // What part of a light's radiance a ray adds that has met it, if its direction was sampled with
-    // a density: the light was sampled as well, with lampPdf() per steradian.
-    template <class LampPdf> float partOfHit(std::size_t i, const LampPdf& lampPdf) const {
-        const PathState& state = stateOf(i);
-        if (!(state.pdf > 0)) return 1;
-        return kernels::one::powerHeuristic(state.pdf, lampPdf(state)).v;
+    // What part of the radiance of a light a ray adds that has met it along `dir`: it was sampled as
+    // well, if it is one of the lamps.
+    float partOfHit(std::size_t i, std::uint32_t light, Vec3 dir) const {
+        const PathState& from = stateOf(i);
+        if (!(from.pdf > 0)) return 1;
+        float sampled = 0;
+        if (light != PathLights::kNone)
+            sampled = sampling_.isOneChosen
+                          ? lights_.pdf(from.p, from.n, light, dir)
+                          : lights_.pdfOfLight(from.p, light, dir) * sampling_.samples;
+        return kernels::one::powerHeuristic(from.pdf, sampled).v;
     }
 
-    // `lampPdf(state, light, direction)`: see partOfHit(); light may be PathLights::kNone.
-    template <class LampPdf> void addMissed(const LampPdf& lampPdf) {
+    void addMissed() {
         const PointBatch& points = memory_.points;
         const std::span<const Rgb> seen = waves::backgroundsOf(wave_);
         const Rgb background = seen.empty() ? scene_.background(Vec3{}) : Rgb{};
-        for (std::size_t m = 0; m < points.missedCount; ++m) {
-            const std::uint32_t i = points.missed[m];
-            const Rgb radiance = seen.empty() ? background : seen[m];
-            add(i, radiance * partOfHit(i, [&](const PathState& state) {
-                       return lampPdf(state, lights_.sky(), normalize(wave_.rays.dir[i]));
-                   }));
+        if (seen.empty() && isBlack(background)) return;
+        const bool isLamp = lights_.sky() != PathLights::kNone && wave_.depth > 0;
+        for (std::size_t first = 0; first < points.missedCount; first += SkyBlock::kRays) {
+            const std::size_t count = std::min(SkyBlock::kRays, points.missedCount - first);
+            const std::uint32_t* const rays = points.missed.data() + first;
+            if (isLamp) findSkyParts({rays, count});
+            for (std::size_t i = 0; i < count; ++i) {
+                const Rgb radiance = seen.empty() ? background : seen[first + i];
+                add(rays[i], isLamp ? radiance * path_.sky.part[i] : radiance);
+            }
         }
     }
     // Lamps that are no shapes, and that rays go through.
-    template <class LampPdf> void addMet(const LampPdf& lampPdf) {
+    void addMet() {
         if (!lights_.hasUnshaped()) return;
         const PathBatch& rays = wave_.rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -83,14 +91,12 @@ protected:
             if (memory_.hits[i].isHit()) end = memory_.hits[i].t;
             lights_.meet(rays.org[i], rays.dir[i], end, state.pdf > 0 ? 0 : rays.seesLights[i],
                          [&](std::uint32_t light, Rgb radiance) {
-                             add(i, radiance * partOfHit(i, [&](const PathState& from) {
-                                        return lampPdf(from, light, rays.dir[i]);
-                                    }));
+                             add(i, radiance * partOfHit(i, light, rays.dir[i]));
                          });
         }
     }
     // What the surface at point k emits.
-    template <class LampPdf> void addEmission(std::size_t k, const LampPdf& lampPdf) {
+    void addEmission(std::size_t k) {
         const std::uint32_t i = memory_.points.ray[k];
         const PointBlock& block = memory_.points.at.block(k / kPoints);
         const SceneMaterial& of = memory_.points.at.of(k);
@@ -104,13 +110,11 @@ protected:
         const Hit& hit = memory_.hits[i];
         std::uint32_t light = lights_.ofObject(block.object[k % kPoints], isFront);
         if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
+        const Vec3 dir = normalize(wave_.rays.dir[i]);
         Rgb radiance = emission * opacityOf(k);
         if (of.isLamp && light != PathLights::kNone) // it may not be the same for all directions
-            radiance = lights_.radianceOf(light, wave_.rays.org[i], normalize(wave_.rays.dir[i]),
-                                          radiance);
-        add(i, radiance * partOfHit(i, [&](const PathState& state) {
-                   return lampPdf(state, light, normalize(wave_.rays.dir[i]));
-               }));
+            radiance = lights_.radianceOf(light, wave_.rays.org[i], dir, radiance);
+        add(i, radiance * partOfHit(i, light, dir));
     }
 
     // The part of light that point k does not let straight through.
@@ -259,6 +263,17 @@ protected:
     }
 
 private:
+    // Writes what parts of the sky's radiance rays add that met nothing to path_.sky.
+    void findSkyParts(std::span<const std::uint32_t> rays) {
+        SkyBlock& block = path_.sky;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const PathState& from = stateOf(rays[i]);
+            SurfaceBlock::set(block.dir, i, wave_.rays.dir[rays[i]]);
+            SurfaceBlock::set(block.p, i, from.p), SurfaceBlock::set(block.n, i, from.n);
+            block.pdf[i] = from.pdf;
+        }
+        context_.settings.isa->shading->sky(lights_, sampling_, block, rays.size());
+    }
     // Whether all points of a block follow each other in the list from this place on.
     bool isWholeBlock(std::size_t place) const {
         const std::uint32_t k = path_.alike[place];
@@ -299,6 +314,7 @@ protected:
     const PathLights& lights_;
     const LobedMaterials& materials_;
     const SettingsDesc& limits_;
+    const LampSampling sampling_;
     waves::Boundary boundaries_[kPoints];
     UvFootprint footprints_[kPoints];
 };

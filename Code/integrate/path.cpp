@@ -10,27 +10,19 @@
 namespace {
 
 class PathWave : LobedWave {
-    // With what density a light was sampled where a path came from.
-    auto pdfOf() const {
-        return [this](const PathState& from, std::uint32_t light, Vec3 dir) {
-            return light == PathLights::kNone ? 0.0f : lights_.pdf(from.p, from.n, light, dir);
-        };
-    }
-
 public:
-    explicit PathWave(const Wave& wave) : LobedWave(wave) {}
+    explicit PathWave(const Wave& wave) : LobedWave(wave, {}) {}
 
     void run() {
         findPoints();
-        addMissed(pdfOf());
-        addMet(pdfOf());
+        addMissed();
+        addMet();
         path_.shadowRays.clear();
         memory_.next.clear(), path_.nextStates.clear();
         const PointBatch& points = memory_.points;
         for (std::size_t b = 0; b < points.blocks(); ++b)
             for (unsigned rest = pointsWith(LobedMaterial::kEmits, b); rest != 0; rest &= rest - 1)
-                addEmission(b * kPoints + static_cast<std::size_t>(std::countr_zero(rest)),
-                            pdfOf());
+                addEmission(b * kPoints + static_cast<std::size_t>(std::countr_zero(rest)));
         listAlike([&](std::size_t k, const LobedMaterial& of) {
             return (of.lobes != 0 || (of.flags & LobedMaterial::kSeeThrough) != 0) &&
                    !stateOf(points.ray[k]).isLast;
@@ -148,7 +140,7 @@ private:
             const int bounces = state.bounces();
             state.isLast |= bounces > limits_.maxDepth;
             // The last ray is traced for the light that was weighted against it.
-            if (state.isLast && isSingle) continue;
+            if (state.isLast && (isSingle || !context_.raysMeetLight)) continue;
             const Vec3 w = SurfaceBlock::get(block.weight, i);
             Rgb weight = rays.weight[ray] * Rgb{w.x, w.y, w.z};
             if (bounces > kBouncesWithoutRoulette) {

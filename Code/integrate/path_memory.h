@@ -41,6 +41,7 @@ struct PathMemory {
     LobeBlock lobes{};
     PathBlock block{};
     WhittedBlock whitted{};
+    SkyBlock sky{};
     BounceQueue bounces{};
     // The material whose numbers `lobes` has for all points, if they are of one.
     std::uint32_t filledWith = kMixed;

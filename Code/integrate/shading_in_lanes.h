@@ -5,6 +5,7 @@
 #include "integrate/lamp_rays_in_lanes.h"
 #include "integrate/point_lanes.h"
 #include "integrate/shading_kernel.h"
+#include "integrate/sky_in_lanes.h"
 
 LANES_BEGIN
 
@@ -71,6 +72,6 @@ void whittedAtPoints(const PathLights& lights, std::span<LampQueue> lamps, const
             sendToLamps);
 }
 
-constexpr ShadingKernel kShading{seePoints, scatterBlock, whittedAtPoints};
+constexpr ShadingKernel kShading{seePoints, scatterBlock, whittedAtPoints, skyParts};
 
 LANES_END

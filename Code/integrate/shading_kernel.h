@@ -90,6 +90,24 @@ struct BounceQueue {
     bool isBelow[kMost];        // leaves to the other side of the surface
 };
 
+// How lamps were sampled beside the rays of lobes: one was chosen by the tree of lights, or each of
+// them has so many samples.
+struct LampSampling {
+    bool isOneChosen = true;
+    float samples = 1;
+};
+
+// Rays that met nothing, where the sky is a lamp.
+struct alignas(64) SkyBlock {
+    static constexpr std::size_t kRays = 16;
+    using Lane = float[kRays];
+    // In: their directions, of any length; where they come from, and the normal there (0: both sides
+    // are lit); the density of their directions, 0 for single ones.
+    alignas(64) Lane dir[3] = {}, p[3] = {}, n[3] = {}, pdf = {};
+    // Out: what part of the sky's radiance each adds, by the power heuristic.
+    alignas(64) Lane part;
+};
+
 // What shading over lobes does by the register: the stages that know numbers only.
 
 // All take the points of block.points, whose lobes are those of `lobes`; the numbers of others
@@ -107,4 +125,7 @@ struct ShadingKernel {
     // Whitted pictures: the samples of all these lamps, and the rays of lobes.
     void (*whitted)(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,
                     const LobeBlock& lobes, WhittedBlock& block, BounceQueue& bounces) = nullptr;
+    // The sky as a lamp, of the first `count` rays of a block; others get any part.
+    void (*sky)(const PathLights& lights, const LampSampling& sampling, SkyBlock& block,
+                std::size_t count) = nullptr;
 };

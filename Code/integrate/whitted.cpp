@@ -18,22 +18,16 @@ template <class Fn> void forEachBit(unsigned bits, const Fn& fn) {
 }
 
 class WhittedWave : LobedWave {
-    // Returns the density with which a lamp was sampled beside a ray of a rough lobe.
-    auto pdfOf() const {
-        return [this](const PathState& from, std::uint32_t light, Vec3 dir) {
-            if (light == PathLights::kNone) return 0.0f;
-            return lights_.pdfOfLight(from.p, light, dir) *
-                   static_cast<float>(limits_.lightSamples);
-        };
-    }
-
 public:
-    explicit WhittedWave(const Wave& wave) : LobedWave(wave) {}
+    explicit WhittedWave(const Wave& wave)
+        : LobedWave(wave, {.isOneChosen = false,
+                           .samples = static_cast<float>(
+                               wave.context.settings.picture.lightSamples)}) {}
 
     void run() {
         findPoints();
-        addMissed(pdfOf());
-        addMet(pdfOf());
+        addMissed();
+        addMet();
         memory_.next.clear();
         path_.shadowRays.clear();
         path_.sums.assign(memory_.points.count, Rgb{});
@@ -83,7 +77,7 @@ private:
         const PointBatch& points = memory_.points;
         for (std::size_t b = 0; b < points.blocks(); ++b) {
             forEachBit(pointsWith(LobedMaterial::kEmits, b),
-                       [&](std::size_t i) { addEmission(b * kPoints + i, pdfOf()); });
+                       [&](std::size_t i) { addEmission(b * kPoints + i); });
             forEachBit(pointsWith(LobedMaterial::kSeeThrough, b),
                        [&](std::size_t i) { goStraight(b * kPoints + i); });
         }

@@ -39,10 +39,9 @@ void PathLights::addTriangle(std::uint32_t shape, std::uint32_t triangle, std::u
     putAt(ofTriangle_[shape], triangle, light);
 }
 
-void PathLights::addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance,
-                        double brightness, bool isOpen) {
+void PathLights::addSky(SkyTable table, SkyRadiance radiance, double brightness, bool isOpen) {
     skyBrightness_ = brightness;
-    skyTable_ = std::move(table), skyRadiance_ = std::move(radiance);
+    skyTable_ = std::move(table), skyRadiance_ = radiance;
     sky_ = add({.row = {kSkyKind, {}}, .isOpen = isOpen, .isSoft = true});
 }
 

@@ -9,7 +9,6 @@
 #include "light/tree/light_tree.h"
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -43,8 +42,7 @@ public:
     void addTriangle(std::uint32_t shape, std::uint32_t triangle, std::uint32_t light);
     // The sky is one of them; `table` says how it is sampled, `brightness` what its
     // numbers are multiplied by.
-    void addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance, double brightness,
-                bool isOpen);
+    void addSky(SkyTable table, SkyRadiance radiance, double brightness, bool isOpen);
     // Call once when all are there and paths choose one of them for a point.
     void makeTree();
 
@@ -63,7 +61,7 @@ public:
     std::uint32_t sky() const { return sky_; } // kNone: it is not sampled
     // Its kind, besides those of the list of lights.
     static constexpr std::uint32_t kSkyKind = 0xff;
-    SkyView skyView() const { return skyTable_.view(*skyRadiance_); }
+    SkyView skyView() const { return skyTable_.view(skyRadiance_); }
     // kNone: it is not sampled.
     std::uint32_t ofObject(std::uint32_t object, bool front) const {
         const std::size_t side = 2 * std::size_t{object} + front;
@@ -113,6 +111,6 @@ private:
     std::vector<std::vector<std::uint32_t>> ofTriangle_; // by shape; empty where none shines
     std::uint32_t sky_ = kNone;
     SkyTable skyTable_;
-    std::unique_ptr<const SkyRadiance> skyRadiance_;
+    SkyRadiance skyRadiance_;
     double skyBrightness_ = 1;
 };

@@ -146,7 +146,7 @@ void SceneLights::addSky(PathLights& lights, const Surroundings& around) const {
     lights.addSky(around.environment != nullptr
                       ? skyTableOf(*around.environment, isPath_ && !isOpen, settings_.threads)
                       : SkyTable(),
-                  skyRadianceOf(around.environment, around.background),
+                  {around.environment, around.background},
                   static_cast<double>(luminance(around.background)), isOpen);
 }
 
@@ -172,35 +172,7 @@ PathLights::Entry SceneLights::surfaceEntry(const LightRow& row) const {
     return {.row = row, .isOpen = !settings_.switches.shadows, .isSoft = true, .isSurface = true};
 }
 
-namespace {
-
-class SceneSky final : public SkyRadiance {
-public:
-    SceneSky(const Environment* environment, Rgb factor)
-        : environment_(environment), factor_(factor) {}
-    void radiance(std::size_t count, const float* const (&dir)[3],
-                  float* const (&rgb)[3]) const override {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Rgb c =
-                environment_ == nullptr
-                    ? factor_
-                    : factor_ * environment_->radiance(Vec3{dir[0][i], dir[1][i], dir[2][i]});
-            rgb[0][i] = c.r, rgb[1][i] = c.g, rgb[2][i] = c.b;
-        }
-    }
-
-private:
-    const Environment* environment_;
-    Rgb factor_;
-};
-
-} // namespace
-
 SkyTable skyTableOf(const Environment& environment, bool compensated, int threads) {
     const SkyCells cells = skyCells(environment, kMostSkyColumns, kMostSkyRows, threads);
     return {cells.width, cells.height, cells.luminance, compensated, environment.place(), threads};
-}
-
-std::unique_ptr<const SkyRadiance> skyRadianceOf(const Environment* environment, Rgb factor) {
-    return std::make_unique<const SceneSky>(environment, factor);
 }

@@ -46,14 +46,22 @@ inline void textureColors(const Texture& texture, TextureBlock& block, std::size
     }
 }
 
+// Returns Environment::radiance() of W directions.
+inline Floats3 environmentColor(const Environment& environment, const Floats3& dir) {
+    const TexelLanes texels(environment.grid(), Extension::Repeat, Extension::Extend, false);
+    const PicturePlaces at = placesOf(environment.place(), dir);
+    alignas(64) float color[3][W];
+    texels.colors(at.s, at.t, color[0], color[1], color[2]);
+    return {Floats::load(color[0]), Floats::load(color[1]), Floats::load(color[2])};
+}
+
 inline void environmentColors(const Environment& environment, EnvironmentBlock& block,
                               std::size_t count) {
-    const TexelLanes texels(environment.grid(), Extension::Repeat, Extension::Extend, false);
     for (std::size_t first = 0; first < count; first += W) {
         const auto of = [&](int axis) { return Floats::load(block.dir[axis] + first); };
-        const PicturePlaces at = placesOf(environment.place(), {of(0), of(1), of(2)});
-        texels.colors(at.s, at.t, block.color[0] + first, block.color[1] + first,
-                      block.color[2] + first);
+        const Floats3 color = environmentColor(environment, {of(0), of(1), of(2)});
+        color.x.store(block.color[0] + first), color.y.store(block.color[1] + first);
+        color.z.store(block.color[2] + first);
     }
 }
 

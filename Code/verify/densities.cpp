@@ -190,7 +190,7 @@ Tally skies(const Effort& effort) {
         const int width = 4 + static_cast<int>(random.below(12));
         const Environment environment(skyImage(random, width, 7, 1), ColorSpace::Linear,
                                       Interpolation::Bilinear, up, random.unit());
-        const SkyPicture picture(environment);
+        const SkyRadiance picture{&environment};
         const SkyCells cells = skyCells(environment, kMostSkyColumns, kMostSkyRows);
         for (const bool compensated : {false, true}) {
             const SkyTable table(cells.width, cells.height, cells.luminance, compensated,

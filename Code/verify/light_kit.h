@@ -183,20 +183,5 @@ inline StoredImage skyImage(meshes::Random& random, int width, int height, doubl
     }
     return image;
 }
-class SkyPicture : public SkyRadiance {
-public:
-    explicit SkyPicture(const Environment& environment) : environment_(environment) {}
-    void radiance(std::size_t count, const float* const (&dir)[3],
-                  float* const (&rgb)[3]) const override {
-        for (std::size_t i = 0; i < count; ++i) {
-            const Rgb c = environment_.radiance(Vec3{dir[0][i], dir[1][i], dir[2][i]});
-            rgb[0][i] = c.r, rgb[1][i] = c.g, rgb[2][i] = c.b;
-        }
-    }
-
-private:
-    const Environment& environment_;
-};
-
 } // namespace
 } // namespace light_kit

@@ -35,7 +35,7 @@ TEST(sky_is_never_black_where_its_picture_is_not) {
         const SkyCells cells = skyCells(environment, columns, rows);
         CHECK(cells.width == columns && cells.height == rows);
         const SkyTable table(cells.width, cells.height, cells.luminance, false, {});
-        const SkyPicture picture(environment);
+        const SkyRadiance picture{&environment};
         const kernels::one::SkyEmitter sky(table.view(picture));
         for (int i = 0; i < 20000; ++i) {
             const Vec3 dir = unitVector(random);
@@ -56,7 +56,7 @@ TEST(sky_of_one_colour_and_of_none) {
     black.bytes.assign(8, 0);
     const Environment environment(black, ColorSpace::Srgb, Interpolation::Bilinear,
                                   Environment::Up::Z, 0);
-    const SkyPicture picture(environment);
+    const SkyRadiance picture{&environment};
     const SkyTable ofOne(3, 2, std::vector<float>(6, 0.7f), true, {});
     const SkyTable ofNone(4, 2, std::vector<float>(8, 0.0f), false, {});
     CHECK_NEAR(ofOne.mean(), 0.7, 1e-6);
@@ -76,7 +76,7 @@ TEST(sky_tables_are_the_same_for_any_threads) {
     Random random(5143);
     const Environment environment(skyImage(random, 300, 150, 1), ColorSpace::Linear,
                                   Interpolation::Bilinear, Environment::Up::Z, 0);
-    const SkyPicture picture(environment);
+    const SkyRadiance picture{&environment};
     const SkyCells one = skyCells(environment, 200, 100, 1),
                    two = skyCells(environment, 200, 100, 3);
     CHECK(one.luminance == two.luminance);

@@ -5,6 +5,7 @@
 #include "light/light_lanes.h"
 #include "light/sky/sky_table.h"
 #include "sample/equirectangular.h"
+#include "texture/pictures_in_lanes.h"
 
 LANES_BEGIN
 
@@ -88,10 +89,10 @@ private:
         return row.size * column.size / solidAngle;
     }
     Floats3 radianceOf(const Floats3& dir) const {
-        alignas(64) float to[3][W], rgb[3][W];
-        dir.x.store(to[0]), dir.y.store(to[1]), dir.z.store(to[2]);
-        sky_.radiance->radiance(W, {to[0], to[1], to[2]}, {rgb[0], rgb[1], rgb[2]});
-        return {Floats::load(rgb[0]), Floats::load(rgb[1]), Floats::load(rgb[2])};
+        const Rgb& factor = sky_.radiance.factor;
+        const Floats3 even{factor.r, factor.g, factor.b};
+        if (sky_.radiance.picture == nullptr) return even;
+        return even * environmentColor(*sky_.radiance.picture, dir);
     }
 
     SkyView sky_;

@@ -10,13 +10,12 @@
 #include <span>
 #include <vector>
 
-// What the sky looks like in `count` directions: x, y and z are columns of unit vectors, r, g and b
-// get the radiance. All widths have to give the same bits.
-class SkyRadiance {
-public:
-    virtual ~SkyRadiance() = default;
-    virtual void radiance(std::size_t count, const float* const (&dir)[3],
-                          float* const (&rgb)[3]) const = 0;
+class Environment;
+
+// What the sky looks like: a picture, if there is one, times a factor.
+struct SkyRadiance {
+    const Environment* picture = nullptr;
+    Rgb factor{1, 1, 1};
 };
 
 // What the lanes see of a table.
@@ -26,7 +25,7 @@ struct SkyView {
     const double* borders = nullptr; // height + 1 sines of latitude
     std::uint32_t width = 0, height = 0, pitch = 0;
     SkyPlace place;
-    const SkyRadiance* radiance = nullptr;
+    SkyRadiance radiance;
 };
 
 // The cells of a picture are these many at most.
@@ -45,7 +44,7 @@ public:
 
     SkyView view(const SkyRadiance& radiance) const {
         return {rows_.data(), columns_.data(), borders_.data(), width_,
-                height_,      width_ + 1,      place_,          &radiance};
+                height_,      width_ + 1,      place_,          radiance};
     }
     // Mean luminance over all directions.
     double mean() const { return mean_; }
