@@ -17,6 +17,7 @@ from page import (A4, ACCENT, BODY, BULLET, CAPTION, CELL, CODE, COLUMNS, FLUSH,
                   Image, KeepTogether, LABEL, LEAD, MARGIN, NOTE, PALE, PageBreak, Paragraph, Picture, Preformatted,
                   SimpleDocTemplate, Spacer, TITLE, TOP, Table, WIDE, WIDTH, figures, markup, mm, picture, read,
                   rule)
+from error_pages import errorPages
 from sources import bench, features, newest, readme, tsv
 
 
@@ -265,7 +266,7 @@ def main():
         groups, notes = features()
         story = front() + gallery(groups)
         story += times(bench(arguments.bench, os.path.abspath(arguments.raytracer)))
-        story += rays() + growth() + battery() + exactness() + missing(notes)
+        story += rays() + errorPages() + growth() + battery() + exactness() + missing(notes)
         data = io.BytesIO()
         SimpleDocTemplate(data, pagesize=A4, leftMargin=MARGIN - 6, rightMargin=MARGIN - 6, topMargin=16 * mm,
                           bottomMargin=17 * mm, title="raytracer", author="", subject="Report", invariant=1,

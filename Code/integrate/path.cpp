@@ -24,8 +24,8 @@ public:
             for (unsigned rest = pointsWith(LobedMaterial::kEmits, b); rest != 0; rest &= rest - 1)
                 addEmission(b * kPoints + static_cast<std::size_t>(std::countr_zero(rest)));
         listAlike([&](std::size_t k, const LobedMaterial& of) {
-            return (of.lobes != 0 || (of.flags & LobedMaterial::kSeeThrough) != 0) &&
-                   !stateOf(points.ray[k]).isLast;
+            return (of.flags & LobedMaterial::kSeeThrough) != 0 ||
+                   (of.lobes != 0 && !stateOf(points.ray[k]).isLast);
         });
         path_.filledWith = PathMemory::kMixed;
         forEachAlike([&](const AlikePoints& of) { scatter(of); });
@@ -42,7 +42,8 @@ private:
         takePixels(of, pixels, samples);
         drawNumbers(pixels, samples);
         takeThroughputs(of, block.throughput);
-        block.points = of.all() & ~goStraight(of);
+        block.points = of.all();
+        if (scene_.hasSeeThrough()) block.points &= ~(goStraight(of) | whereLast(of));
         if (block.points == 0) return;
         fillLobes(of);
         if (limits_.filterGlossy > 0) filterGlossy(of);
@@ -89,6 +90,14 @@ private:
         return straight;
     }
 
+    // Returns the points where rays end that see lights only.
+    unsigned whereLast(const AlikePoints& among) const {
+        unsigned last = 0;
+        for (std::size_t i = 0; i < among.size; ++i)
+            last |= unsigned{stateOf(memory_.points.ray[among.number[i]]).isLast} << i;
+        return last;
+    }
+
     void filterGlossy(const AlikePoints& of) {
         const float radius = static_cast<float>(limits_.filterGlossy);
         for (std::size_t i = 0; i < of.size; ++i)
@@ -128,8 +137,7 @@ private:
             const std::uint32_t ray = memory_.points.ray[k];
             PathState state = stateOf(ray);
             const bool isDiffuse = (block.diffuse >> i & 1) != 0,
-                       isTransmitted = (block.transmitted >> i & 1) != 0,
-                       isSingle = (block.single >> i & 1) != 0;
+                       isTransmitted = (block.transmitted >> i & 1) != 0;
             if (!limits_.caustics && state.diffuse > 0 && !isDiffuse) continue;
             if (isTransmitted)
                 state.isLast = ++state.transmission > limits_.transmissionDepth;
@@ -139,8 +147,8 @@ private:
                 state.isLast = ++state.glossy > limits_.glossyDepth;
             const int bounces = state.bounces();
             state.isLast |= bounces > limits_.maxDepth;
-            // The last ray is traced for the light that was weighted against it.
-            if (state.isLast && (isSingle || !context_.raysMeetLight)) continue;
+            // The last ray sees lights only, as in Cycles.
+            if (state.isLast && !context_.raysMeetLight) continue;
             const Vec3 w = SurfaceBlock::get(block.weight, i);
             Rgb weight = rays.weight[ray] * Rgb{w.x, w.y, w.z};
             if (bounces > kBouncesWithoutRoulette) {
@@ -149,7 +157,7 @@ private:
                 weight = weight * (1 / go);
             }
             state.pdf = block.pdf[i];
-            if (!isSingle) state.leastPdf = min(state.leastPdf, state.pdf);
+            if ((block.single >> i & 1) == 0) state.leastPdf = min(state.leastPdf, state.pdf);
             state.p = SurfaceBlock::get(of.at->p, i);
             state.n = (flags & kTransmits) != 0 ? Vec3{} : SurfaceBlock::get(of.at->n, i);
             const bool crosses = isTransmitted && (flags & kHasSides) != 0;

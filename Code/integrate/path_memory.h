@@ -28,7 +28,7 @@ struct PathState {
         return leastPdf < radius ? 0.5f * std::sqrt(1 - leastPdf / radius) : 0;
     }
     RayCone cone;        // only where pictures are filtered
-    bool isLast = false; // only lights are asked what it meets
+    bool isLast = false; // sees lights only, also through what is not opaque
 };
 
 struct PathMemory {

@@ -67,6 +67,36 @@ TEST(paths_keep_limits_of_any_depth) {
     }
 }
 
+// The last ray of a path sees lights and no more, as in Cycles: in a mirror, and through what is not
+// opaque.
+TEST(last_rays_see_lights) {
+    const std::string view =
+        "settings {\n resolution 4 4\n samples 256\n}\n"
+        "camera c {\n look_at 0 0 3  0 0 0  0 1 0\n fov 20\n}\n"
+        "material shine {\n diffuse 1 1 1\n emission 3 3 3\n}\n"
+        "material grey {\n diffuse 0.5 0.5 0.5\n}\n"
+        "material glance {\n lobe mirror weight 0.5 0.5 0.5\n}\n"
+        "material pane {\n diffuse 0 0 0\n opacity 0.25\n}\n"
+        "sphere around {\n radius 9\n material shine\n}\n";
+    const auto none = [](RenderSettings& settings) {
+        path(0)(settings);
+        settings.picture.maxDepth = settings.picture.glossyDepth = 0;
+    };
+    const auto mean = [&](const std::string& shapes) {
+        return shot::estimate(shot::render(view + shapes, none).color);
+    };
+    // The closed form: half of the 3 that the ball around all shines with.
+    const auto [mirrored, ofMirrored] = mean("plane p {\n scale 2 2 1\n material glance\n}\n");
+    CHECK_NEAR(mirrored, 1.5, 4.5 * ofMirrored + 1e-5);
+    const auto [lit, ofLit] = mean("plane p {\n scale 2 2 1\n material grey\n}\n");
+    CHECK_NEAR(lit, 1.5, 4.5 * ofLit + 1e-5);
+    // Between floor and light there is a pane, which three quarters of the light pass.
+    const auto [shaded, ofShaded] =
+        mean("plane p {\n scale 2 2 1\n translate 0 0 -1\n material grey\n}\n"
+             "sphere s {\n radius 2\n translate 0 0 -1\n material pane\n}\n");
+    CHECK_NEAR(shaded, 1.5 * 0.75 * 0.75, 4.5 * ofShaded + 1e-5);
+}
+
 // Whatever a picture holds, numbers stay in their range: nothing in a white sky is brighter than
 // the sky, and nothing shines darkness.
 TEST(pictures_keep_numbers_in_range) {
