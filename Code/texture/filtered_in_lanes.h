@@ -12,6 +12,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <optional>
 
 LANES_BEGIN
 
@@ -79,18 +81,17 @@ inline void holdInside(Doubles& middle, Doubles& along, Doubles& across) {
     along = along * part, across = across * part;
 }
 
-// Which two levels a mean over so many texels is taken from, and what part of it from the coarser
+// Which two levels means over so many texels are taken from, and what part of them from the coarser
 // one. The logarithm is taken as straight between powers of two.
-struct LevelPlace {
-    int finer;
-    float coarser;
+struct LevelPlaces {
+    Ints finer;
+    Floats coarser;
 };
-inline LevelPlace levelOf(double width, int levels) {
-    const auto bits = std::bit_cast<std::uint64_t>(width);
-    const int power = static_cast<int>(bits >> 52) - 1023; // is positive or 0
-    if (power >= levels - 1) return {levels - 1, 0};
-    const double mantissa = std::bit_cast<double>((bits & 0x000fffffffffffffu) | (1023ull << 52));
-    return {power, static_cast<float>(mantissa - 1)};
+inline LevelPlaces levelsOf(const Doubles& width, int levels) {
+    const Doubles one(1.0), held = min(width, powersOfTwo(Ints(static_cast<std::uint32_t>(levels - 1))));
+    const Ints power = plus(shiftedRight<23>(bitsOf(held.toFloats())), 0u - 127);
+    // What rounding has brought to the next power has nothing of the coarser one.
+    return {power, max(held / powersOfTwo(power) - one, Doubles(0.0)).toFloats()};
 }
 
 class FilteredTexels {
@@ -107,35 +108,24 @@ public:
         }
         const Probes probes =
             probesOf(axes, texture_.grid().width(), texture_.grid().height());
-        alignas(64) double count[W], width[W];
-        probes.count.store(count), probes.width.store(width);
-        alignas(64) float coarser[W];
-        int finer[W];
-        unsigned used = 0; // levels, a bit for each
-        for (std::size_t i = 0; i < W; ++i) {
-            const LevelPlace place = levelOf(width[i], levels_);
-            finer[i] = place.finer, coarser[i] = place.coarser;
-            used |= (place.coarser > 0 ? 3u : 1u) << place.finer;
-        }
-        double most = 1;
-        for (const double n : count) most = n > most ? n : most;
+        const Doubles one(1.0);
+        if ((less(one, probes.count) | less(one, probes.width)) == 0)
+            return lookedUp(picture(false), at);
+        const LevelPlaces levels = levelsOf(probes.width, levels_);
+        const Floats coarser = levels.coarser, zero(0.0f);
+        const unsigned inPicture = bits(levels.finer == Ints(0u)), finer = ~inPicture & kAllLanes,
+                       between = bits(coarser > zero);
+        std::optional<Look> looks[] = {lookAt(inPicture), lookAt(levels.finer, finer),
+                                       lookAt(plus(levels.finer, 1), between)};
+        const Floats weights[] = {Floats(1.0f) - coarser, Floats(1.0f) - coarser, coarser};
         Sums sums;
-        for (double probe = 0; probe < most; ++probe) {
+        for (double probe = 0; const unsigned lanes = less(Doubles(probe), probes.count); ++probe) {
             const Doubles along =
-                (Doubles(2 * probe + 1) / probes.count - Doubles(1.0)) * Doubles(0.5);
+                (Doubles(2 * probe + 1) / probes.count - one) * Doubles(0.5);
             const PicturePlaces place{at.s + along * probes.way.s, at.t + along * probes.way.t};
-            for (unsigned rest = used; rest != 0; rest &= rest - 1) {
-                const int level = std::countr_zero(rest);
-                alignas(64) float weight[W];
-                unsigned lanes = 0;
-                for (std::size_t i = 0; i < W; ++i) {
-                    weight[i] = level == finer[i]       ? 1 - coarser[i]
-                                : level == finer[i] + 1 ? coarser[i]
-                                                        : 0;
-                    lanes |= unsigned{weight[i] > 0 && probe < count[i]} << i;
-                }
-                if (lanes != 0) add(level, place, maskOf(lanes), Floats::load(weight), sums);
-            }
+            for (std::size_t i = 0; i < std::size(looks); ++i)
+                if (looks[i] && (looks[i]->lanes & lanes) != 0)
+                    add(*looks[i], place, maskOf(looks[i]->lanes & lanes), weights[i], sums);
         }
         return sums.mean(weighsAlpha_);
     }
@@ -153,27 +143,58 @@ private:
             return select(isWeighted, seen / covered, all);
         }
     };
-    void add(int level, const PicturePlaces& at, Mask lanes, Floats weight, Sums& sums) const {
-        const TexelGrid& grid =
-            level == 0 ? texture_.grid() : texture_.mips().level(texture_.grid(), level);
+    static constexpr unsigned kAllLanes = (1u << W) - 1;
+    // Texels that some lanes look at, and what part of them there is, if that counts.
+    struct Look {
+        unsigned lanes;
+        TexelLanes colors;
+        std::optional<TexelLanes> covers;
+        bool isCut = false; // at the edge of a picture between black, as far as the picture is there
+    };
+    TexelLanes picture(bool wantsAlpha) const {
+        const Extension extension = texture_.extension();
+        return {texture_.grid(), extension, extension, wantsAlpha || texture_.isAlpha()};
+    }
+    std::optional<Look> lookAt(unsigned lanes) const {
+        if (lanes == 0) return {};
+        Look look{lanes, picture(false), {}};
+        if (weighsAlpha_) look.covers.emplace(picture(true));
+        return look;
+    }
+    std::optional<Look> lookAt(Ints levels, unsigned lanes) const {
+        if (lanes == 0) return {};
+        alignas(64) std::uint32_t level[W];
+        levels.store(level);
+        const std::uint32_t any = level[std::countr_zero(lanes)];
+        const TexelGrid* grids[W];
+        for (std::size_t i = 0; i < W; ++i) {
+            if ((lanes >> i & 1) == 0) level[i] = any;
+            grids[i] = i > 0 && level[i] == level[i - 1]
+                           ? grids[i - 1]
+                           : &texture_.mips().level(texture_.grid(), static_cast<int>(level[i]));
+        }
+        const bool isAlpha = texture_.isAlpha();
+        Look look{lanes, TexelLanes(grids, texture_.extension(), isAlpha), {}};
+        look.isCut = !weighsAlpha_ && texture_.extension() == Extension::Clip && !isAlpha;
+        if (weighsAlpha_ || look.isCut) look.covers.emplace(grids, texture_.extension(), true);
+        return look;
+    }
+    void add(const Look& look, const PicturePlaces& at, Mask lanes, Floats weight,
+             Sums& sums) const {
         const Floats zero(0.0f), one(1.0f);
-        Floats3 color = lookedUp(grid, at, texture_.isAlpha());
-        // At the edge of a picture between black, as far as the picture is there.
-        if (level > 0 && !weighsAlpha_ && texture_.extension() == Extension::Clip &&
-            !texture_.isAlpha())
-            color = color * lookedUp(grid, at, true).x;
+        Floats3 color = lookedUp(look.colors, at);
+        if (look.isCut) color = color * lookedUp(*look.covers, at).x;
         sums.plain = select(lanes, sums.plain + color * weight, sums.plain);
         sums.weight = select(lanes, sums.weight + weight, sums.weight);
         if (!weighsAlpha_) return;
-        const Floats covers = weight * lookedUp(grid, at, true).x;
+        const Floats covers = weight * lookedUp(*look.covers, at).x;
         sums.seen = select(lanes, sums.seen + color * covers, sums.seen);
         sums.covered = select(lanes, sums.covered + covers, sums.covered);
         sums.looks = sums.looks + select(lanes, one, zero);
     }
-    Floats3 lookedUp(const TexelGrid& grid, const PicturePlaces& at, bool wantsAlpha) const {
+    static Floats3 lookedUp(const TexelLanes& texels, const PicturePlaces& at) {
         alignas(64) float r[W], g[W], b[W];
-        TexelLanes(grid, texture_.extension(), texture_.extension(), wantsAlpha)
-            .colors(at.s, at.t, r, g, b);
+        texels.colors(at.s, at.t, r, g, b);
         return {Floats::load(r), Floats::load(g), Floats::load(b)};
     }
 

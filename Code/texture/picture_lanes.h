@@ -8,7 +8,7 @@
 #include <cstddef>
 
 struct alignas(64) TextureBlock {
-    static constexpr std::size_t kPoints = 64;
+    static constexpr std::size_t kPoints = 16;
     float u[kPoints] = {}, v[kPoints] = {};
     // The axes of footprints, of which colours are the mean: u, then v.
     bool isFiltered = false;

@@ -41,9 +41,9 @@ struct ByteTexels {
     Ints bytes;
     Doubles number(int i) const { return doublesOf(byteOf(bytes, i)); }
 };
-template <class Number> struct WideTexels {
-    static constexpr double kOne = std::is_same_v<Number, float> ? 1 : 65535;
-    const Number* at[W]; // null: outside
+struct WordTexels {
+    static constexpr double kOne = 65535;
+    const std::uint16_t* at[W]; // null: outside
     bool isOpaque;
     Doubles number(int i) const {
         alignas(64) double numbers[W];
@@ -54,13 +54,36 @@ template <class Number> struct WideTexels {
         return Doubles::load(numbers);
     }
 };
+struct FloatTexels {
+    static constexpr double kOne = 1;
+    Floats numbers[4];
+    Doubles number(int i) const { return Doubles(numbers[i]); }
+};
 
 class TexelLanes {
 public:
     // The grid stays as long as this. wantsAlpha: three times the alpha instead of the colour.
     TexelLanes(const TexelGrid& grid, Extension extensionS, Extension extensionT, bool wantsAlpha)
         : grid_(grid), extensionS_(extensionS), extensionT_(extensionT), wantsAlpha_(wantsAlpha),
-          channels_(grid.image().channels), width_(grid.width()), height_(grid.height()) {}
+          channels_(grid.image().channels), width_(grid.width()), height_(grid.height()),
+          wholeRows_(0u) {
+        if (grid.image().depth != StoredImage::Depth::Float) return;
+        for (const StoredImage*& image : image_) image = &grid.image();
+        wholeRows_ = Ints(wholeRowsOf(grid.image()));
+    }
+    // Each lane has a grid of its own. All are linear floats, bilinear, and have as many channels.
+    TexelLanes(const TexelGrid* const (&grids)[W], Extension extension, bool wantsAlpha)
+        : TexelLanes(*grids[0], extension, extension, wantsAlpha) {
+        alignas(64) double width[W], height[W];
+        alignas(64) std::uint32_t wholeRows[W];
+        for (std::size_t i = 0; i < W; ++i) {
+            image_[i] = &grids[i]->image();
+            width[i] = image_[i]->width, height[i] = image_[i]->height;
+            wholeRows[i] = wholeRowsOf(*image_[i]);
+        }
+        width_ = Doubles::load(width), height_ = Doubles::load(height);
+        wholeRows_ = Ints::load(wholeRows);
+    }
 
     // Stores W floats of each channel.
     void colors(const Doubles& s, const Doubles& t, float* r, float* g, float* b) const {
@@ -68,8 +91,8 @@ public:
         float* const to[] = {r, g, b};
         switch (grid_.image().depth) {
         case StoredImage::Depth::Bits8: return mix<ByteTexels>(x, y, to);
-        case StoredImage::Depth::Bits16: return mix<WideTexels<std::uint16_t>>(x, y, to);
-        case StoredImage::Depth::Float: return mix<WideTexels<float>>(x, y, to);
+        case StoredImage::Depth::Bits16: return mix<WordTexels>(x, y, to);
+        case StoredImage::Depth::Float: return mix<FloatTexels>(x, y, to);
         }
     }
 
@@ -84,7 +107,7 @@ private:
         Doubles weight; // of hi
     };
 
-    Taps taps(Doubles s, double size, Extension extension) const {
+    Taps taps(Doubles s, const Doubles& size, Extension extension) const {
         // Limits keep the conversion to whole numbers safe; NaN becomes 0, or the limit of Clip.
         const Doubles zero(0.0), one(1.0);
         switch (extension) {
@@ -95,30 +118,34 @@ private:
         case Extension::Extend: s = min(max(s, zero), one); break;
         case Extension::Clip: s = min(max(s, Doubles(-2.0)), Doubles(2.0)); break;
         }
-        const Doubles texels = s * Doubles(size);
+        const Doubles texels = s * size;
         const Doubles x = grid_.isNearest() ? texels : texels - Doubles(0.5);
         const Doubles below = floor(x);
         return {tap(below, size, extension), tap(below + one, size, extension), x - below};
     }
 
-    static Tap tap(const Doubles& i, double size, Extension extension) {
-        const Doubles zero(0.0), end(size);
-        const Mask isInside = maskOf(less(i, end) & ~less(i, zero));
+    static Tap tap(const Doubles& i, const Doubles& end, Extension extension) {
+        const Doubles zero(0.0);
         const Mask all = maskOf((1u << W) - 1);
-        if (extension != Extension::Repeat)
-            return {min(max(i, zero), Doubles(size - 1)),
+        if (extension != Extension::Repeat) {
+            const Mask isInside = maskOf(less(i, end) & ~less(i, zero));
+            return {min(max(i, zero), end - Doubles(1.0)),
                     extension == Extension::Clip ? isInside : all};
+        }
         const Doubles notBelow = select(i < zero, i + end, i);
         return {select(notBelow < end, notBelow, notBelow - end), all};
     }
 
+    bool isClipped() const {
+        return extensionS_ == Extension::Clip || extensionT_ == Extension::Clip;
+    }
     bool hasAlpha() const { return channels_ % 2 == 0; }
     int alphaNumber() const { return hasAlpha() ? channels_ - 1 : kOpaque; }
 
     // Rows of the file come from the top, y from the bottom.
     Ints firstNumber(const Tap& x, const Tap& y) const {
-        const Doubles row = Doubles(height_ - 1) - y.number;
-        return wholeOf((row * Doubles(width_) + x.number) * Doubles(channels_));
+        const Doubles row = height_ - Doubles(1.0) - y.number;
+        return wholeOf((row * width_ + x.number) * Doubles(channels_));
     }
     template <class Texels> Texels texelsAt(const Tap& x, const Tap& y) const {
         const Mask isInside = x.isInside & y.isInside;
@@ -127,22 +154,44 @@ private:
             const Ints bytes = bytesAt(grid_.image().bytes, first);
             const Ints whole = hasAlpha() ? bytes : (bytes & Ints(0xffffffu)) + Ints(0xff000000u);
             return {select(isInside, whole, Ints(0u))};
+        } else if constexpr (std::is_same_v<Texels, FloatTexels>) {
+            FloatTexels out;
+            loadFloats(first, out.numbers);
+            if (!hasAlpha()) out.numbers[kOpaque] = Floats(1.0f);
+            if (isClipped())
+                for (Floats& number : out.numbers) number = select(isInside, number, Floats(0.0f));
+            return out;
         } else {
-            Texels out;
+            WordTexels out;
             alignas(64) std::uint32_t number[W];
             first.store(number);
             out.isOpaque = !hasAlpha();
             for (std::size_t lane = 0; lane < W; ++lane)
-                out.at[lane] =
-                    (bits(isInside) >> lane & 1) != 0 ? numbersFrom(out, number[lane]) : nullptr;
+                out.at[lane] = (bits(isInside) >> lane & 1) != 0
+                                   ? grid_.image().words.data() + number[lane]
+                                   : nullptr;
             return out;
         }
     }
-    const std::uint16_t* numbersFrom(const WideTexels<std::uint16_t>&, std::uint32_t first) const {
-        return grid_.image().words.data() + first;
+    // From how many numbers on there are four.
+    static std::uint32_t wholeRowsOf(const StoredImage& image) {
+        const std::size_t size = image.floats.size();
+        return static_cast<std::uint32_t>(size - std::min<std::size_t>(size, 3));
     }
-    const float* numbersFrom(const WideTexels<float>&, std::uint32_t first) const {
-        return grid_.image().floats.data() + first;
+    // Loads four floats from each number on, or as many as there are.
+    void loadFloats(Ints first, Floats (&numbers)[4]) const {
+        alignas(64) std::uint32_t at[W];
+        first.store(at);
+        const float* rows[W];
+        for (std::size_t i = 0; i < W; ++i) rows[i] = image_[i]->floats.data() + at[i];
+        if (bits(first < wholeRows_) == (1u << W) - 1) return loadRows(rows, numbers);
+        float copies[W][4] = {};
+        for (std::size_t i = 0; i < W; ++i) {
+            const std::size_t rest = image_[i]->floats.size() - at[i];
+            std::memcpy(copies[i], rows[i], std::min<std::size_t>(rest, 4) * sizeof(float));
+            rows[i] = copies[i];
+        }
+        loadRows(rows, numbers);
     }
     // Returns four bytes from each number on, or as many as there are.
     static Ints bytesAt(std::span<const std::uint8_t> bytes, Ints first) {
@@ -178,10 +227,9 @@ private:
             texels[3] = texelsAt<Texels>(x.hi, y.hi);
         }
         const auto alphaOf = [&](std::size_t i) { return texels[i].number(alphaNumber()); };
-        const bool isClipped = extensionS_ == Extension::Clip || extensionT_ == Extension::Clip;
         unsigned uneven = 0; // lanes where something covers, and not all alike
         Doubles covered(0.0);
-        if (!wantsAlpha_ && !grid_.isNearest() && (hasAlpha() || isClipped)) {
+        if (!wantsAlpha_ && !grid_.isNearest() && (hasAlpha() || isClipped())) {
             unsigned even = (1u << W) - 1;
             for (std::size_t i = 1; i < 4; ++i)
                 even &= atMost(alphaOf(0), alphaOf(i)) & atMost(alphaOf(i), alphaOf(0));
@@ -197,7 +245,8 @@ private:
                 const auto share = [&](std::size_t i) { return alphaOf(i) * numberOf(i); };
                 mixed = select(maskOf(uneven), mixedOf(share, x, y) / covered, mixed);
             }
-            return (mixed / Doubles(Texels::kOne)).toFloats();
+            if constexpr (Texels::kOne != 1) mixed = mixed / Doubles(Texels::kOne);
+            return mixed.toFloats();
         };
         const bool isGrey = wantsAlpha_ || channels_ < 3;
         for (int c = 0; c < (isGrey ? 1 : 3); ++c) {
@@ -211,7 +260,9 @@ private:
     Extension extensionS_, extensionT_;
     bool wantsAlpha_;
     int channels_;
-    double width_, height_;
+    Doubles width_, height_;
+    const StoredImage* image_[W]; // of floats
+    Ints wholeRows_;
 };
 
 LANES_END
