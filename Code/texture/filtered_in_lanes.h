@@ -5,6 +5,7 @@
 #include "sample/equirectangular.h"
 #include "simd/lanes.h"
 #include "simd/vectors3.h"
+#include "texture/levels_in_lanes.h"
 #include "texture/mip_levels.h"
 #include "texture/texels_in_lanes.h"
 #include "texture/texture.h"
@@ -12,8 +13,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <optional>
+#include <utility>
 
 LANES_BEGIN
 
@@ -110,22 +111,24 @@ public:
             probesOf(axes, texture_.grid().width(), texture_.grid().height());
         const Doubles one(1.0);
         if ((less(one, probes.count) | less(one, probes.width)) == 0)
-            return lookedUp(picture(false), at);
+            return lookedUp(at, texture_.isAlpha());
         const LevelPlaces levels = levelsOf(probes.width, levels_);
         const Floats coarser = levels.coarser, zero(0.0f);
         const unsigned inPicture = bits(levels.finer == Ints(0u)), finer = ~inPicture & kAllLanes,
                        between = bits(coarser > zero);
-        std::optional<Look> looks[] = {lookAt(inPicture), lookAt(levels.finer, finer),
-                                       lookAt(plus(levels.finer, 1), between)};
-        const Floats weights[] = {Floats(1.0f) - coarser, Floats(1.0f) - coarser, coarser};
+        const std::optional<LevelLanes> looks[] = {lookAt(levels.finer, finer),
+                                                   lookAt(plus(levels.finer, 1), between)};
         Sums sums;
         for (double probe = 0; const unsigned lanes = less(Doubles(probe), probes.count); ++probe) {
-            const Doubles along =
-                (Doubles(2 * probe + 1) / probes.count - one) * Doubles(0.5);
+            const Doubles along = (Doubles(2 * probe + 1) / probes.count - one) * Doubles(0.5);
             const PicturePlaces place{at.s + along * probes.way.s, at.t + along * probes.way.t};
-            for (std::size_t i = 0; i < std::size(looks); ++i)
-                if (looks[i] && (looks[i]->lanes & lanes) != 0)
-                    add(*looks[i], place, maskOf(looks[i]->lanes & lanes), weights[i], sums);
+            const auto add = [&](unsigned among, const auto& look, Floats weight) {
+                if ((among & lanes) != 0)
+                    sums.add(look(), maskOf(among & lanes), weight, weighsAlpha_);
+            };
+            add(inPicture, [&] { return inPictureAt(place); }, Floats(1.0f) - coarser);
+            add(finer, [&] { return inLevels(*looks[0], place); }, Floats(1.0f) - coarser);
+            add(between, [&] { return inLevels(*looks[1], place); }, coarser);
         }
         return sums.mean(weighsAlpha_);
     }
@@ -135,6 +138,15 @@ private:
         Floats3 plain{Floats(0.0f), Floats(0.0f), Floats(0.0f)}, seen = plain;
         Floats weight{0.0f}, covered{0.0f}, looks{0.0f};
 
+        void add(const SeenTexels& texels, Mask lanes, Floats part, bool weighsAlpha) {
+            plain = select(lanes, plain + texels.color * part, plain);
+            weight = select(lanes, weight + part, weight);
+            if (!weighsAlpha) return;
+            const Floats covers = part * texels.alpha;
+            seen = select(lanes, seen + texels.color * covers, seen);
+            covered = select(lanes, covered + covers, covered);
+            looks = looks + select(lanes, Floats(1.0f), Floats(0.0f));
+        }
         // Colours are weighted by alpha if more than one was looked at.
         Floats3 mean(bool weighsAlpha) const {
             const Floats3 all = plain / weight;
@@ -144,57 +156,37 @@ private:
         }
     };
     static constexpr unsigned kAllLanes = (1u << W) - 1;
-    // Texels that some lanes look at, and what part of them there is, if that counts.
-    struct Look {
-        unsigned lanes;
-        TexelLanes colors;
-        std::optional<TexelLanes> covers;
-        bool isCut = false; // at the edge of a picture between black, as far as the picture is there
-    };
-    TexelLanes picture(bool wantsAlpha) const {
-        const Extension extension = texture_.extension();
-        return {texture_.grid(), extension, extension, wantsAlpha || texture_.isAlpha()};
-    }
-    std::optional<Look> lookAt(unsigned lanes) const {
-        if (lanes == 0) return {};
-        Look look{lanes, picture(false), {}};
-        if (weighsAlpha_) look.covers.emplace(picture(true));
-        return look;
-    }
-    std::optional<Look> lookAt(Ints levels, unsigned lanes) const {
+    // Returns the levels of some lanes; the others look into one of these.
+    std::optional<LevelLanes> lookAt(Ints levels, unsigned lanes) const {
         if (lanes == 0) return {};
         alignas(64) std::uint32_t level[W];
-        levels.store(level);
+        select(maskOf(lanes), levels, Ints(0u)).store(level);
         const std::uint32_t any = level[std::countr_zero(lanes)];
         const TexelGrid* grids[W];
         for (std::size_t i = 0; i < W; ++i) {
-            if ((lanes >> i & 1) == 0) level[i] = any;
+            if (level[i] == 0) level[i] = any;
             grids[i] = i > 0 && level[i] == level[i - 1]
                            ? grids[i - 1]
                            : &texture_.mips().level(texture_.grid(), static_cast<int>(level[i]));
         }
-        const bool isAlpha = texture_.isAlpha();
-        Look look{lanes, TexelLanes(grids, texture_.extension(), isAlpha), {}};
-        look.isCut = !weighsAlpha_ && texture_.extension() == Extension::Clip && !isAlpha;
-        if (weighsAlpha_ || look.isCut) look.covers.emplace(grids, texture_.extension(), true);
-        return look;
+        return std::optional<LevelLanes>(std::in_place, grids, texture_.extension());
     }
-    void add(const Look& look, const PicturePlaces& at, Mask lanes, Floats weight,
-             Sums& sums) const {
-        const Floats zero(0.0f), one(1.0f);
-        Floats3 color = lookedUp(look.colors, at);
-        if (look.isCut) color = color * lookedUp(*look.covers, at).x;
-        sums.plain = select(lanes, sums.plain + color * weight, sums.plain);
-        sums.weight = select(lanes, sums.weight + weight, sums.weight);
-        if (!weighsAlpha_) return;
-        const Floats covers = weight * lookedUp(*look.covers, at).x;
-        sums.seen = select(lanes, sums.seen + color * covers, sums.seen);
-        sums.covered = select(lanes, sums.covered + covers, sums.covered);
-        sums.looks = sums.looks + select(lanes, one, zero);
+    SeenTexels inLevels(const LevelLanes& levels, const PicturePlaces& at) const {
+        SeenTexels seen = levels.at(at);
+        if (texture_.isAlpha())
+            seen.color = {seen.alpha, seen.alpha, seen.alpha};
+        else if (!weighsAlpha_ && texture_.extension() == Extension::Clip)
+            seen.color = seen.color * seen.alpha; // it is cut off from black
+        return seen;
     }
-    static Floats3 lookedUp(const TexelLanes& texels, const PicturePlaces& at) {
+    SeenTexels inPictureAt(const PicturePlaces& at) const {
+        return {lookedUp(at, texture_.isAlpha()),
+                weighsAlpha_ ? lookedUp(at, true).x : Floats(1.0f)};
+    }
+    Floats3 lookedUp(const PicturePlaces& at, bool wantsAlpha) const {
         alignas(64) float r[W], g[W], b[W];
-        texels.colors(at.s, at.t, r, g, b);
+        TexelLanes(texture_.grid(), texture_.extension(), texture_.extension(), wantsAlpha)
+            .colors(at.s, at.t, r, g, b);
         return {Floats::load(r), Floats::load(g), Floats::load(b)};
     }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -60,30 +61,52 @@ struct FloatTexels {
     Doubles number(int i) const { return Doubles(numbers[i]); }
 };
 
+// Four numbers that follow each other, for each lane in an array of its own.
+class FloatRows {
+public:
+    explicit FloatRows(std::span<const float> numbers) : whole_(wholeOf(numbers)) {
+        for (std::span<const float>& row : numbers_) row = numbers;
+    }
+    explicit FloatRows(const std::span<const float> (&numbers)[W]) : whole_(0u) {
+        alignas(64) std::uint32_t whole[W];
+        for (std::size_t i = 0; i < W; ++i)
+            numbers_[i] = numbers[i], whole[i] = wholeOf(numbers[i]);
+        whole_ = Ints::load(whole);
+    }
+    // Loads those from each number on, or as many as there are.
+    void load(Ints first, Floats (&to)[4]) const {
+        alignas(64) std::uint32_t at[W];
+        first.store(at);
+        const float* rows[W];
+        for (std::size_t i = 0; i < W; ++i) rows[i] = numbers_[i].data() + at[i];
+        unsigned atEnd = ~bits(first < whole_) & ((1u << W) - 1);
+        if (atEnd == 0) return loadRows(rows, to);
+        float copies[W][4] = {};
+        for (; atEnd != 0; atEnd &= atEnd - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(atEnd));
+            const auto rest = numbers_[i].subspan(at[i]);
+            for (std::size_t k = 0; k < rest.size() && k < 4; ++k) copies[i][k] = rest[k];
+            rows[i] = copies[i];
+        }
+        loadRows(rows, to);
+    }
+
+private:
+    // Up to where four numbers follow each other.
+    static std::uint32_t wholeOf(std::span<const float> numbers) {
+        const std::size_t size = numbers.size();
+        return static_cast<std::uint32_t>(size - std::min<std::size_t>(size, 3));
+    }
+    std::span<const float> numbers_[W];
+    Ints whole_;
+};
+
 class TexelLanes {
 public:
     // The grid stays as long as this. wantsAlpha: three times the alpha instead of the colour.
     TexelLanes(const TexelGrid& grid, Extension extensionS, Extension extensionT, bool wantsAlpha)
         : grid_(grid), extensionS_(extensionS), extensionT_(extensionT), wantsAlpha_(wantsAlpha),
-          channels_(grid.image().channels), width_(grid.width()), height_(grid.height()),
-          wholeRows_(0u) {
-        if (grid.image().depth != StoredImage::Depth::Float) return;
-        for (const StoredImage*& image : image_) image = &grid.image();
-        wholeRows_ = Ints(wholeRowsOf(grid.image()));
-    }
-    // Each lane has a grid of its own. All are linear floats, bilinear, and have as many channels.
-    TexelLanes(const TexelGrid* const (&grids)[W], Extension extension, bool wantsAlpha)
-        : TexelLanes(*grids[0], extension, extension, wantsAlpha) {
-        alignas(64) double width[W], height[W];
-        alignas(64) std::uint32_t wholeRows[W];
-        for (std::size_t i = 0; i < W; ++i) {
-            image_[i] = &grids[i]->image();
-            width[i] = image_[i]->width, height[i] = image_[i]->height;
-            wholeRows[i] = wholeRowsOf(*image_[i]);
-        }
-        width_ = Doubles::load(width), height_ = Doubles::load(height);
-        wholeRows_ = Ints::load(wholeRows);
-    }
+          channels_(grid.image().channels), width_(grid.width()), height_(grid.height()) {}
 
     // Stores W floats of each channel.
     void colors(const Doubles& s, const Doubles& t, float* r, float* g, float* b) const {
@@ -107,7 +130,7 @@ private:
         Doubles weight; // of hi
     };
 
-    Taps taps(Doubles s, const Doubles& size, Extension extension) const {
+    Taps taps(Doubles s, double size, Extension extension) const {
         // Limits keep the conversion to whole numbers safe; NaN becomes 0, or the limit of Clip.
         const Doubles zero(0.0), one(1.0);
         switch (extension) {
@@ -118,18 +141,18 @@ private:
         case Extension::Extend: s = min(max(s, zero), one); break;
         case Extension::Clip: s = min(max(s, Doubles(-2.0)), Doubles(2.0)); break;
         }
-        const Doubles texels = s * size;
+        const Doubles texels = s * Doubles(size);
         const Doubles x = grid_.isNearest() ? texels : texels - Doubles(0.5);
         const Doubles below = floor(x);
         return {tap(below, size, extension), tap(below + one, size, extension), x - below};
     }
 
-    static Tap tap(const Doubles& i, const Doubles& end, Extension extension) {
-        const Doubles zero(0.0);
+    static Tap tap(const Doubles& i, double size, Extension extension) {
+        const Doubles zero(0.0), end(size);
         const Mask all = maskOf((1u << W) - 1);
         if (extension != Extension::Repeat) {
             const Mask isInside = maskOf(less(i, end) & ~less(i, zero));
-            return {min(max(i, zero), end - Doubles(1.0)),
+            return {min(max(i, zero), Doubles(size - 1)),
                     extension == Extension::Clip ? isInside : all};
         }
         const Doubles notBelow = select(i < zero, i + end, i);
@@ -144,8 +167,8 @@ private:
 
     // Rows of the file come from the top, y from the bottom.
     Ints firstNumber(const Tap& x, const Tap& y) const {
-        const Doubles row = height_ - Doubles(1.0) - y.number;
-        return wholeOf((row * width_ + x.number) * Doubles(channels_));
+        const Doubles row = Doubles(height_ - 1) - y.number;
+        return wholeOf((row * Doubles(width_) + x.number) * Doubles(channels_));
     }
     template <class Texels> Texels texelsAt(const Tap& x, const Tap& y) const {
         const Mask isInside = x.isInside & y.isInside;
@@ -156,7 +179,7 @@ private:
             return {select(isInside, whole, Ints(0u))};
         } else if constexpr (std::is_same_v<Texels, FloatTexels>) {
             FloatTexels out;
-            loadFloats(first, out.numbers);
+            FloatRows(grid_.image().floats).load(first, out.numbers);
             if (!hasAlpha()) out.numbers[kOpaque] = Floats(1.0f);
             if (isClipped())
                 for (Floats& number : out.numbers) number = select(isInside, number, Floats(0.0f));
@@ -172,26 +195,6 @@ private:
                                    : nullptr;
             return out;
         }
-    }
-    // From how many numbers on there are four.
-    static std::uint32_t wholeRowsOf(const StoredImage& image) {
-        const std::size_t size = image.floats.size();
-        return static_cast<std::uint32_t>(size - std::min<std::size_t>(size, 3));
-    }
-    // Loads four floats from each number on, or as many as there are.
-    void loadFloats(Ints first, Floats (&numbers)[4]) const {
-        alignas(64) std::uint32_t at[W];
-        first.store(at);
-        const float* rows[W];
-        for (std::size_t i = 0; i < W; ++i) rows[i] = image_[i]->floats.data() + at[i];
-        if (bits(first < wholeRows_) == (1u << W) - 1) return loadRows(rows, numbers);
-        float copies[W][4] = {};
-        for (std::size_t i = 0; i < W; ++i) {
-            const std::size_t rest = image_[i]->floats.size() - at[i];
-            std::memcpy(copies[i], rows[i], std::min<std::size_t>(rest, 4) * sizeof(float));
-            rows[i] = copies[i];
-        }
-        loadRows(rows, numbers);
     }
     // Returns four bytes from each number on, or as many as there are.
     static Ints bytesAt(std::span<const std::uint8_t> bytes, Ints first) {
@@ -260,9 +263,7 @@ private:
     Extension extensionS_, extensionT_;
     bool wantsAlpha_;
     int channels_;
-    Doubles width_, height_;
-    const StoredImage* image_[W]; // of floats
-    Ints wholeRows_;
+    double width_, height_;
 };
 
 LANES_END
