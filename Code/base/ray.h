@@ -78,4 +78,5 @@ struct SurfaceNeeds {
 // Change of the position with the texture coordinates, for bump and normal maps.
 struct SurfaceDerivatives {
     Vec3 dpdu, dpdv;
+    bool isEven = false; // the same for all rays and wherever they meet this primitive
 };

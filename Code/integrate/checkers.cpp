@@ -2,7 +2,7 @@
 
 #include "integrate/wave.h"
 #include "sample/hash.h"
-#include "texture/box_checker.h"
+#include "texture/picture_lanes.h"
 
 #include <algorithm>
 
@@ -23,20 +23,6 @@ const Checker* checkerAt(const std::vector<Checker>& checkers, std::uint32_t sha
     return found != checkers.end() && found->shape == shape ? &*found : nullptr;
 }
 
-// The part of what ray i stands for that lies on odd squares.
-float oddPartOf(const Wave& wave, const StillShape& plane, std::uint32_t i, Vec3 normal) {
-    const Hit& hit = wave.memory.hits[i];
-    const Ray ray = wave.rays.ray(i);
-    const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
-    const RayD local{pointUnder(plane.objectFromWorld(), toDouble(ray.org)),
-                     vectorUnder(plane.objectFromWorld(), toDouble(ray.dir))};
-    const Vec3d p = local.at(t);
-    const Transform& place = plane.worldFromObject;
-    const SurfaceDerivatives d{toFloat(place.vector({1, 0, 0})), toFloat(place.vector({0, 1, 0}))};
-    const float width = wave.memory.path.states[i].cone.widthAt(hit.t);
-    return static_cast<float>(oddPart({p.x, p.y}, footprintOn(width, ray.dir, normal, d)));
-}
-
 // A number in [0,1) that nothing else takes.
 float numberFor(const Wave& wave, std::uint32_t i) {
     constexpr std::uint32_t kSquares = 0x5c4ec5e5;
@@ -45,6 +31,65 @@ float numberFor(const Wave& wave, std::uint32_t i) {
                                     kSquares + static_cast<std::uint32_t>(wave.depth));
     return unitFloat(high32(bits));
 }
+
+// The points of one checker at a time, sixteen of them together.
+class MixedPoints {
+public:
+    MixedPoints(const Wave& wave, std::vector<MaterialMix>& mixes) : wave_(wave), mixes_(mixes) {}
+
+    void add(const Checker& checker, std::size_t k) {
+        if (count_ == CheckerBlock::kPoints || checker_ != &checker) {
+            mix();
+            begin(checker);
+        }
+        const std::uint32_t i = wave_.memory.points.ray[k];
+        const Hit& hit = wave_.memory.hits[i];
+        const PointBlock& block = blockOf(k);
+        cones_.put(count_, wave_.memory.path.states[i].cone.widthAt(hit.t), wave_.rays.dir[i],
+                   SurfaceBlock::get(block.ng, k % PointBlock::kPoints));
+        SurfaceBlock::set(cones_.org, count_, wave_.rays.org[i]);
+        cones_.t[0][count_] = hit.t, cones_.t[1][count_] = hit.u;
+        number_[count_++] = k;
+    }
+    // Decides about those that are left.
+    void mix() {
+        if (count_ == 0) return;
+        const StillShape& plane = *checker_->plane;
+        wave_.context.pictures.oddParts(plane.objectFromWorld(), cones_, count_);
+        for (std::size_t j = 0; j < count_; ++j) {
+            const std::size_t k = number_[j];
+            std::uint32_t& material = blockOf(k).material[k % PointBlock::kPoints];
+            const float odd = cones_.odd[j];
+            if (!checker_->mixes) {
+                const bool isOdd = numberFor(wave_, wave_.memory.points.ray[k]) < odd;
+                material = isOdd ? plane.oddMaterial : plane.material;
+                continue;
+            }
+            const bool isOdd = odd > 0.5f;
+            material = isOdd ? plane.oddMaterial : plane.material;
+            mixes_[k] = {isOdd ? plane.material : plane.oddMaterial, isOdd ? 1 - odd : odd};
+        }
+        count_ = 0;
+    }
+
+private:
+    void begin(const Checker& checker) {
+        if (checker_ == &checker) return;
+        checker_ = &checker;
+        const Transform& place = checker.plane->worldFromObject;
+        for (std::size_t i = 0; i < CheckerBlock::kPoints; ++i)
+            cones_.put(i, {toFloat(place.vector({1, 0, 0})), toFloat(place.vector({0, 1, 0}))});
+    }
+    PointBlock& blockOf(std::size_t k) const {
+        return wave_.memory.points.at.block(k / PointBlock::kPoints);
+    }
+
+    const Wave& wave_;
+    std::vector<MaterialMix>& mixes_;
+    const Checker* checker_ = nullptr;
+    CheckerBlock cones_;
+    std::size_t count_ = 0, number_[CheckerBlock::kPoints];
+};
 
 } // namespace
 
@@ -64,25 +109,17 @@ std::vector<Checker> checkersOf(const Scene& scene) {
 }
 
 void waves::mixCheckers(const Wave& wave) {
-    PointBatch& points = wave.memory.points;
+    const PointBatch& points = wave.memory.points;
     std::vector<MaterialMix>& mixes = wave.memory.path.mixes;
     mixes.assign(points.count, {});
+    MixedPoints mixed(wave, mixes);
+    std::uint32_t lastShape = Hit::kNoShape;
+    const Checker* checker = nullptr; // of the last shape
     for (std::size_t k = 0; k < points.count; ++k) {
-        const std::uint32_t i = points.ray[k];
-        const Checker* const checker =
-            checkerAt(wave.context.checkers, wave.memory.hits[i].shape);
-        if (checker == nullptr) continue;
-        PointBlock& block = points.at.block(k / PointBlock::kPoints);
-        const std::size_t place = k % PointBlock::kPoints;
-        const StillShape& plane = *checker->plane;
-        const float odd = oddPartOf(wave, plane, i, SurfaceBlock::get(block.ng, place));
-        if (!checker->mixes) {
-            block.material[place] =
-                numberFor(wave, i) < odd ? plane.oddMaterial : plane.material;
-            continue;
-        }
-        const bool isOdd = odd > 0.5f;
-        block.material[place] = isOdd ? plane.oddMaterial : plane.material;
-        mixes[k] = {isOdd ? plane.material : plane.oddMaterial, isOdd ? 1 - odd : odd};
+        const std::uint32_t shape = wave.memory.hits[points.ray[k]].shape;
+        if (shape != lastShape) checker = checkerAt(wave.context.checkers, shape);
+        lastShape = shape;
+        if (checker != nullptr) mixed.add(*checker, k);
     }
+    mixed.mix();
 }

@@ -5,7 +5,9 @@
 #include "integrate/path_memory.h"
 #include "integrate/wave.h"
 
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace waves {
@@ -21,6 +23,32 @@ inline void makeCones(const IntegratorContext& context, const PathBatch& rays,
     }
 }
 
+// Finds what part of their pictures the rays of some points stand for; `chosen` has a bit for each
+// that counts. Returns whether any is more than a point.
+inline bool findFootprints(const Wave& wave, const PointBlock& at, const std::uint32_t* numbers,
+                           unsigned chosen, FootprintBlock& found) {
+    const Hit* last = nullptr; // on a primitive whose derivatives are `even`
+    SurfaceDerivatives even;
+    unsigned wide = 0;
+    for (unsigned rest = chosen; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        const std::uint32_t ray = wave.memory.points.ray[numbers[i]];
+        const Hit& hit = wave.memory.hits[ray];
+        const float width = wave.memory.path.states[ray].cone.widthAt(hit.t);
+        found.put(i, width, wave.rays.dir[ray], SurfaceBlock::get(at.ng, i));
+        if (!(width > 0)) continue;
+        wide |= 1u << i;
+        if (last == nullptr || last->shape != hit.shape || last->prim != hit.prim) {
+            const Shape& shape = *wave.context.scene.shapes().shapes[hit.shape];
+            even = shape.derivatives(wave.rays.ray(ray), hit);
+            last = even.isEven ? &hit : nullptr;
+        }
+        found.put(i, even);
+    }
+    if (wide == 0) return false;
+    wave.context.pictures.footprints(found, static_cast<std::size_t>(std::bit_width(chosen)));
+    return true;
+}
 // Returns what part of its pictures the ray of point k stands for.
 inline UvFootprint footprintAt(const Wave& wave, std::size_t k) {
     if (!wave.context.filtersTextures()) return {};

@@ -69,7 +69,7 @@ struct alignas(64) LobeBlock {
     // coordinates, and over these footprints of all points, if any.
     void paint(const LobedMaterials& materials, const LobedMaterial& of, unsigned points,
                const SurfaceBlock& at, const PictureLanes& pictures,
-               const UvFootprint* footprints = nullptr) {
+               const FootprintBlock* footprints = nullptr) {
         const Texture* last = nullptr;
         TextureBlock texels;
         std::size_t found = 0;
@@ -78,11 +78,11 @@ struct alignas(64) LobeBlock {
         for (; points != 0; points &= points - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(points));
             texels.u[found] = at.uv[0][i], texels.v[found] = at.uv[1][i];
-            if (footprints != nullptr) {
-                const UvFootprint& over = footprints[i];
-                texels.along[0][found] = over.along.x, texels.along[1][found] = over.along.y;
-                texels.across[0][found] = over.across.x, texels.across[1][found] = over.across.y;
-            }
+            if (footprints != nullptr)
+                for (const std::size_t axis : {0, 1}) {
+                    texels.along[axis][found] = footprints->along[axis][i];
+                    texels.across[axis][found] = footprints->across[axis][i];
+                }
             point[found++] = static_cast<std::uint8_t>(i);
         }
         for (const LobeFactor& factor : materials.factors(of)) {

@@ -203,6 +203,9 @@ protected:
             if (at.material[i] != number) lobes.put(materials_, other, i);
             if ((other.flags & LobedMaterial::kAnisotropic) != 0) turn(lobes, of.number[i], i);
         }
+        const bool isFiltered =
+            painted != 0 && context_.filtersTextures() &&
+            waves::findFootprints(wave_, at, of.number, painted, footprints_);
         while (painted != 0) {
             const std::uint32_t one = at.material[std::countr_zero(painted)];
             unsigned points = 0;
@@ -210,13 +213,8 @@ protected:
                 const int i = std::countr_zero(rest);
                 points |= unsigned{at.material[i] == one} << i;
             }
-            if (context_.filtersTextures())
-                for (unsigned rest = points; rest != 0; rest &= rest - 1) {
-                    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                    footprints_[i] = waves::footprintAt(wave_, of.number[i]);
-                }
             lobes.paint(materials_, materials_[one], points, at, context_.pictures,
-                        context_.filtersTextures() ? footprints_ : nullptr);
+                        isFiltered ? &footprints_ : nullptr);
             painted &= ~points;
         }
         if (isMixed(of))
@@ -316,7 +314,7 @@ protected:
     const SettingsDesc& limits_;
     const LampSampling sampling_;
     waves::Boundary boundaries_[kPoints];
-    UvFootprint footprints_[kPoints];
+    FootprintBlock footprints_;
 };
 
 // Runs WaveOf for one wave of rays after the other.

@@ -262,7 +262,7 @@ SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) co
     const Vec3d p = mapped(objectFromWorld, toDouble(ray)).at(t);
     const Local local = describe(p, hit.prim, {0, objectFromWorld, true});
     return {toFloat(worldFromObject.vector(local.dpdu)),
-            toFloat(worldFromObject.vector(local.dpdv))};
+            toFloat(worldFromObject.vector(local.dpdv)), isStill() && local.isEven};
 }
 
 Vec3d AnalyticShape::Clearance::inset() const {

@@ -49,6 +49,7 @@ protected:
         Vec3d p, normal;
         Vec2d uv;
         Vec3d dpdu, dpdv;
+        bool isEven = false; // dpdu and dpdv are the same everywhere
     };
 
     // How far, in the world, the origin of a ray may be from the point that it leaves.

@@ -19,7 +19,7 @@ AnalyticShape::Roots InfinitePlane::roots(const RayD& ray) const {
 }
 
 AnalyticShape::Local InfinitePlane::describe(Vec3d p, std::uint32_t, const Clearance&) const {
-    return {{p.x, p.y, 0}, {0, 0, 1}, {p.x, p.y}, {1, 0, 0}, {0, 1, 0}};
+    return {{p.x, p.y, 0}, {0, 0, 1}, {p.x, p.y}, {1, 0, 0}, {0, 1, 0}, true};
 }
 
 BoundsD InfinitePlane::boxUnder(const Transform&) const {

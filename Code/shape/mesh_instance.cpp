@@ -127,7 +127,9 @@ void MeshInstance::surfaces(const SurfaceQuery& query, SurfacePlaces out) const 
 }
 
 SurfaceDerivatives MeshInstance::derivatives(const Ray& ray, const Hit& hit) const {
-    return derivativesOf(surfaceTriangle(placeAt(ray.time), hit.prim));
+    SurfaceDerivatives d = derivativesOf(surfaceTriangle(placeAt(ray.time), hit.prim));
+    d.isEven = motion_.isStatic();
+    return d;
 }
 
 std::optional<TieOrder> MeshInstance::tieOrder(const Ray& ray, const Hit& hit) const {

@@ -179,5 +179,5 @@ SurfaceDerivatives derivativesOf(const SurfaceTriangle& triangle) {
             dpdv = (e2 * static_cast<double>(d1.x) - e1 * static_cast<double>(d2.x)) / det;
         }
     }
-    return {toFloat(dpdu), toFloat(dpdv)};
+    return {toFloat(dpdu), toFloat(dpdv), true};
 }

@@ -70,7 +70,7 @@ AnalyticShape::Local Plane::describe(Vec3d p, std::uint32_t, const Clearance&) c
     const double v = clamp(vRaw, 0.0, 1.0);
     const Vec2d alongU = e2 + g2 * v;
     const double u = clamp(dot2(h2 - f2 * v, alongU) / dot2(alongU, alongU), 0.0, 1.0);
-    return {p, n, {u, v}, e + g * v, f + g * u};
+    return {p, n, {u, v}, e + g * v, f + g * u, g == Vec3d{}};
 }
 
 BoundsD Plane::boxUnder(const Transform& worldFromObject) const {

@@ -5,6 +5,7 @@
 #include "sample/equirectangular.h"
 #include "simd/lanes.h"
 #include "simd/vectors3.h"
+#include "texture/levels_in_lanes.h"
 #include "texture/mip_levels.h"
 #include "texture/texels_in_lanes.h"
 #include "texture/texture.h"
@@ -12,6 +13,8 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 LANES_BEGIN
 
@@ -79,18 +82,17 @@ inline void holdInside(Doubles& middle, Doubles& along, Doubles& across) {
     along = along * part, across = across * part;
 }
 
-// Which two levels a mean over so many texels is taken from, and what part of it from the coarser
+// Which two levels means over so many texels are taken from, and what part of them from the coarser
 // one. The logarithm is taken as straight between powers of two.
-struct LevelPlace {
-    int finer;
-    float coarser;
+struct LevelPlaces {
+    Ints finer;
+    Floats coarser;
 };
-inline LevelPlace levelOf(double width, int levels) {
-    const auto bits = std::bit_cast<std::uint64_t>(width);
-    const int power = static_cast<int>(bits >> 52) - 1023; // is positive or 0
-    if (power >= levels - 1) return {levels - 1, 0};
-    const double mantissa = std::bit_cast<double>((bits & 0x000fffffffffffffu) | (1023ull << 52));
-    return {power, static_cast<float>(mantissa - 1)};
+inline LevelPlaces levelsOf(const Doubles& width, int levels) {
+    const Doubles one(1.0), held = min(width, powersOfTwo(Ints(static_cast<std::uint32_t>(levels - 1))));
+    const Ints power = plus(shiftedRight<23>(bitsOf(held.toFloats())), 0u - 127);
+    // What rounding has brought to the next power has nothing of the coarser one.
+    return {power, max(held / powersOfTwo(power) - one, Doubles(0.0)).toFloats()};
 }
 
 class FilteredTexels {
@@ -107,35 +109,26 @@ public:
         }
         const Probes probes =
             probesOf(axes, texture_.grid().width(), texture_.grid().height());
-        alignas(64) double count[W], width[W];
-        probes.count.store(count), probes.width.store(width);
-        alignas(64) float coarser[W];
-        int finer[W];
-        unsigned used = 0; // levels, a bit for each
-        for (std::size_t i = 0; i < W; ++i) {
-            const LevelPlace place = levelOf(width[i], levels_);
-            finer[i] = place.finer, coarser[i] = place.coarser;
-            used |= (place.coarser > 0 ? 3u : 1u) << place.finer;
-        }
-        double most = 1;
-        for (const double n : count) most = n > most ? n : most;
+        const Doubles one(1.0);
+        if ((less(one, probes.count) | less(one, probes.width)) == 0)
+            return lookedUp(at, texture_.isAlpha());
+        const LevelPlaces levels = levelsOf(probes.width, levels_);
+        const Floats coarser = levels.coarser, zero(0.0f);
+        const unsigned inPicture = bits(levels.finer == Ints(0u)), finer = ~inPicture & kAllLanes,
+                       between = bits(coarser > zero);
+        const std::optional<LevelLanes> looks[] = {lookAt(levels.finer, finer),
+                                                   lookAt(plus(levels.finer, 1), between)};
         Sums sums;
-        for (double probe = 0; probe < most; ++probe) {
-            const Doubles along =
-                (Doubles(2 * probe + 1) / probes.count - Doubles(1.0)) * Doubles(0.5);
+        for (double probe = 0; const unsigned lanes = less(Doubles(probe), probes.count); ++probe) {
+            const Doubles along = (Doubles(2 * probe + 1) / probes.count - one) * Doubles(0.5);
             const PicturePlaces place{at.s + along * probes.way.s, at.t + along * probes.way.t};
-            for (unsigned rest = used; rest != 0; rest &= rest - 1) {
-                const int level = std::countr_zero(rest);
-                alignas(64) float weight[W];
-                unsigned lanes = 0;
-                for (std::size_t i = 0; i < W; ++i) {
-                    weight[i] = level == finer[i]       ? 1 - coarser[i]
-                                : level == finer[i] + 1 ? coarser[i]
-                                                        : 0;
-                    lanes |= unsigned{weight[i] > 0 && probe < count[i]} << i;
-                }
-                if (lanes != 0) add(level, place, maskOf(lanes), Floats::load(weight), sums);
-            }
+            const auto add = [&](unsigned among, const auto& look, Floats weight) {
+                if ((among & lanes) != 0)
+                    sums.add(look(), maskOf(among & lanes), weight, weighsAlpha_);
+            };
+            add(inPicture, [&] { return inPictureAt(place); }, Floats(1.0f) - coarser);
+            add(finer, [&] { return inLevels(*looks[0], place); }, Floats(1.0f) - coarser);
+            add(between, [&] { return inLevels(*looks[1], place); }, coarser);
         }
         return sums.mean(weighsAlpha_);
     }
@@ -145,6 +138,15 @@ private:
         Floats3 plain{Floats(0.0f), Floats(0.0f), Floats(0.0f)}, seen = plain;
         Floats weight{0.0f}, covered{0.0f}, looks{0.0f};
 
+        void add(const SeenTexels& texels, Mask lanes, Floats part, bool weighsAlpha) {
+            plain = select(lanes, plain + texels.color * part, plain);
+            weight = select(lanes, weight + part, weight);
+            if (!weighsAlpha) return;
+            const Floats covers = part * texels.alpha;
+            seen = select(lanes, seen + texels.color * covers, seen);
+            covered = select(lanes, covered + covers, covered);
+            looks = looks + select(lanes, Floats(1.0f), Floats(0.0f));
+        }
         // Colours are weighted by alpha if more than one was looked at.
         Floats3 mean(bool weighsAlpha) const {
             const Floats3 all = plain / weight;
@@ -153,26 +155,37 @@ private:
             return select(isWeighted, seen / covered, all);
         }
     };
-    void add(int level, const PicturePlaces& at, Mask lanes, Floats weight, Sums& sums) const {
-        const TexelGrid& grid =
-            level == 0 ? texture_.grid() : texture_.mips().level(texture_.grid(), level);
-        const Floats zero(0.0f), one(1.0f);
-        Floats3 color = lookedUp(grid, at, texture_.isAlpha());
-        // At the edge of a picture between black, as far as the picture is there.
-        if (level > 0 && !weighsAlpha_ && texture_.extension() == Extension::Clip &&
-            !texture_.isAlpha())
-            color = color * lookedUp(grid, at, true).x;
-        sums.plain = select(lanes, sums.plain + color * weight, sums.plain);
-        sums.weight = select(lanes, sums.weight + weight, sums.weight);
-        if (!weighsAlpha_) return;
-        const Floats covers = weight * lookedUp(grid, at, true).x;
-        sums.seen = select(lanes, sums.seen + color * covers, sums.seen);
-        sums.covered = select(lanes, sums.covered + covers, sums.covered);
-        sums.looks = sums.looks + select(lanes, one, zero);
+    static constexpr unsigned kAllLanes = (1u << W) - 1;
+    // Returns the levels of some lanes; the others look into one of these.
+    std::optional<LevelLanes> lookAt(Ints levels, unsigned lanes) const {
+        if (lanes == 0) return {};
+        alignas(64) std::uint32_t level[W];
+        select(maskOf(lanes), levels, Ints(0u)).store(level);
+        const std::uint32_t any = level[std::countr_zero(lanes)];
+        const TexelGrid* grids[W];
+        for (std::size_t i = 0; i < W; ++i) {
+            if (level[i] == 0) level[i] = any;
+            grids[i] = i > 0 && level[i] == level[i - 1]
+                           ? grids[i - 1]
+                           : &texture_.mips().level(texture_.grid(), static_cast<int>(level[i]));
+        }
+        return std::optional<LevelLanes>(std::in_place, grids, texture_.extension());
     }
-    Floats3 lookedUp(const TexelGrid& grid, const PicturePlaces& at, bool wantsAlpha) const {
+    SeenTexels inLevels(const LevelLanes& levels, const PicturePlaces& at) const {
+        SeenTexels seen = levels.at(at);
+        if (texture_.isAlpha())
+            seen.color = {seen.alpha, seen.alpha, seen.alpha};
+        else if (!weighsAlpha_ && texture_.extension() == Extension::Clip)
+            seen.color = seen.color * seen.alpha; // it is cut off from black
+        return seen;
+    }
+    SeenTexels inPictureAt(const PicturePlaces& at) const {
+        return {lookedUp(at, texture_.isAlpha()),
+                weighsAlpha_ ? lookedUp(at, true).x : Floats(1.0f)};
+    }
+    Floats3 lookedUp(const PicturePlaces& at, bool wantsAlpha) const {
         alignas(64) float r[W], g[W], b[W];
-        TexelLanes(grid, texture_.extension(), texture_.extension(), wantsAlpha)
+        TexelLanes(texture_.grid(), texture_.extension(), texture_.extension(), wantsAlpha)
             .colors(at.s, at.t, r, g, b);
         return {Floats::load(r), Floats::load(g), Floats::load(b)};
     }

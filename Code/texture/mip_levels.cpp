@@ -26,97 +26,92 @@ Merged mergedTo(std::size_t i, std::size_t side) {
 }
 int halfOf(int side) { return side > 1 ? side / 2 : 1; }
 
-// The mean of some texels, in the order in which they are added.
-class Mean {
-public:
-    explicit Mean(std::size_t channels)
-        : channels_(channels), colours_(channels % 2 == 0 ? channels - 1 : channels) {}
-    void add(const float* texel, double weight) {
-        const double alpha = colours_ < channels_ ? static_cast<double>(texel[colours_]) : 1.0;
-        covered_ += weight * alpha;
-        for (std::size_t c = 0; c < colours_; ++c) {
-            const double value = static_cast<double>(texel[c]);
-            plain_[c] += weight * value;
-            seen_[c] += weight * alpha * value;
+// Halves a picture of kChannels channels, of which the last one is alpha if there are two or four.
+// linear(i, isAlpha) is number i of the picture in linear light.
+template <std::size_t kChannels, class Linear>
+void halve(const StoredImage& image, const Linear& linear, StoredImage& out) {
+    constexpr bool kHasAlpha = kChannels % 2 == 0;
+    constexpr std::size_t kColours = kHasAlpha ? kChannels - 1 : kChannels;
+    const auto width = static_cast<std::size_t>(image.width),
+               height = static_cast<std::size_t>(image.height),
+               columns = static_cast<std::size_t>(out.width),
+               rows = static_cast<std::size_t>(out.height);
+    std::vector<Merged> across(columns);
+    for (std::size_t x = 0; x < columns; ++x) across[x] = mergedTo(x, width);
+    float* to = out.floats.data();
+    for (std::size_t y = 0; y < rows; ++y) {
+        const Merged down = mergedTo(y, height);
+        for (const Merged& right : across) {
+            double plain[kColours] = {}, seen[kColours] = {}, covered = 0;
+            for (std::size_t j = 0; j < down.count; ++j) {
+                std::size_t at = ((down.first + j) * width + right.first) * kChannels;
+                for (std::size_t i = 0; i < right.count; ++i, at += kChannels) {
+                    const double weight = down.weight[j] * right.weight[i];
+                    double covers = 0;
+                    if constexpr (kHasAlpha) covered += covers = weight * linear(at + kColours, true);
+                    for (std::size_t c = 0; c < kColours; ++c) {
+                        const double value = linear(at + c, false);
+                        plain[c] += weight * value;
+                        if constexpr (kHasAlpha) seen[c] += covers * value;
+                    }
+                }
+            }
+            for (std::size_t c = 0; c < kColours; ++c)
+                *to++ = static_cast<float>(kHasAlpha && covered > 0 ? seen[c] / covered : plain[c]);
+            if constexpr (kHasAlpha) *to++ = static_cast<float>(covered);
         }
     }
-    void store(float* texel) const {
-        const bool hasAlpha = colours_ < channels_;
-        for (std::size_t c = 0; c < colours_; ++c)
-            texel[c] =
-                static_cast<float>(hasAlpha && covered_ > 0 ? seen_[c] / covered_ : plain_[c]);
-        if (hasAlpha) texel[colours_] = static_cast<float>(covered_);
-    }
-
-private:
-    std::size_t channels_, colours_;
-    double plain_[3] = {}, seen_[3] = {}, covered_ = 0;
-};
-
-template <class Number, class ToLinear>
-void decode(const std::vector<Number>& from, std::size_t channels, double one,
-            const ToLinear& toLinear, std::vector<float>& to) {
-    to.resize(from.size());
-    const bool hasAlpha = channels % 2 == 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        const bool isAlpha = hasAlpha && i % channels == channels - 1;
-        to[i] = isAlpha ? static_cast<float>(static_cast<double>(from[i]) / one)
-                        : toLinear(from[i]);
+}
+template <class Linear>
+void halveAny(const StoredImage& image, const Linear& linear, StoredImage& out) {
+    switch (image.channels) {
+    case 1: return halve<1>(image, linear, out);
+    case 2: return halve<2>(image, linear, out);
+    case 3: return halve<3>(image, linear, out);
+    default: return halve<4>(image, linear, out);
     }
 }
 
 } // namespace
 
-StoredImage halved(const StoredImage& image) {
-    const auto channels = static_cast<std::size_t>(image.channels),
-               width = static_cast<std::size_t>(image.width),
-               height = static_cast<std::size_t>(image.height);
+StoredImage halved(const StoredImage& image, bool isSrgb) {
     StoredImage out;
     out.width = halfOf(image.width), out.height = halfOf(image.height);
     out.channels = image.channels, out.depth = StoredImage::Depth::Float;
-    const auto columns = static_cast<std::size_t>(out.width),
-               rows = static_cast<std::size_t>(out.height);
-    out.floats.resize(columns * rows * channels);
-    for (std::size_t y = 0; y < rows; ++y) {
-        const Merged down = mergedTo(y, height);
-        for (std::size_t x = 0; x < columns; ++x) {
-            const Merged right = mergedTo(x, width);
-            Mean mean(channels);
-            for (std::size_t j = 0; j < down.count; ++j)
-                for (std::size_t i = 0; i < right.count; ++i)
-                    mean.add(&image.floats[((down.first + j) * width + right.first + i) * channels],
-                             down.weight[j] * right.weight[i]);
-            mean.store(&out.floats[(y * columns + x) * channels]);
-        }
-    }
-    return out;
-}
-
-StoredImage linearFloats(const TexelGrid& picture) {
-    const StoredImage& image = picture.image();
-    StoredImage out;
-    out.width = image.width, out.height = image.height, out.channels = image.channels;
-    out.depth = StoredImage::Depth::Float;
     const auto channels = static_cast<std::size_t>(image.channels);
-    const auto linear = [&](double code) {
+    out.floats.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) *
+                      channels);
+    const auto linear = [&](double code, bool isCode) {
         const auto part = static_cast<float>(code);
-        return picture.isSrgb() ? kernels::one::linearFromSrgb(part).v : part;
+        return static_cast<double>(isCode ? kernels::one::linearFromSrgb(part).v : part);
     };
     switch (image.depth) {
     case StoredImage::Depth::Bits8: {
-        std::array<float, 256> table;
-        for (std::size_t i = 0; i < table.size(); ++i)
-            table[i] = linear(static_cast<double>(i) / 255);
-        decode(
-            image.bytes, channels, 255, [&](std::uint8_t code) { return table[code]; }, out.floats);
+        std::array<double, 256> colours, alphas;
+        for (std::size_t i = 0; i < 256; ++i) {
+            const double code = static_cast<double>(i) / 255;
+            colours[i] = linear(code, isSrgb), alphas[i] = linear(code, false);
+        }
+        halveAny(
+            image,
+            [&](std::size_t i, bool isAlpha) {
+                return (isAlpha ? alphas : colours)[image.bytes[i]];
+            },
+            out);
         break;
     }
     case StoredImage::Depth::Bits16:
-        decode(
-            image.words, channels, 65535,
-            [&](std::uint16_t code) { return linear(code / 65535.0); }, out.floats);
+        halveAny(
+            image,
+            [&](std::size_t i, bool isAlpha) {
+                return linear(image.words[i] / 65535.0, isSrgb && !isAlpha);
+            },
+            out);
         break;
-    case StoredImage::Depth::Float: out.floats = image.floats; break;
+    case StoredImage::Depth::Float:
+        halveAny(
+            image, [&](std::size_t i, bool) { return static_cast<double>(image.floats[i]); }, out);
+        break;
     }
     return out;
 }
@@ -140,19 +135,14 @@ const TexelGrid& MipLevels::level(const TexelGrid& picture, int number) const {
 void MipLevels::make(const TexelGrid& picture, int number) const {
     int from = number - 1;
     while (from > 0 && !owned_[static_cast<std::size_t>(from)]) --from;
-    StoredImage made;
-    const StoredImage* finer = nullptr;
-    if (from == 0) {
-        made = linearFloats(picture);
-        finer = &made;
-    } else {
-        finer = &owned_[static_cast<std::size_t>(from)]->image();
-    }
+    StoredImage first;
+    const StoredImage* finer =
+        from == 0 ? &picture.image() : &owned_[static_cast<std::size_t>(from)]->image();
     while (++from <= number) {
-        StoredImage next = halved(*finer);
+        StoredImage next = halved(*finer, from == 1 && picture.isSrgb());
         if (from == 1 && number > 1) {
-            made = std::move(next);
-            finer = &made;
+            first = std::move(next);
+            finer = &first;
             continue;
         }
         auto& owned = owned_[static_cast<std::size_t>(from)];

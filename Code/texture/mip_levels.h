@@ -36,8 +36,6 @@ private:
     mutable std::array<std::atomic<const TexelGrid*>, kMost> made_{};
 };
 
-// Returns half of a picture of floats in linear light: every texel is the mean of 2 x 2 texels, or
+// Returns half of a picture, as floats in linear light: every texel is the mean of 2 x 2 texels, or
 // of parts of 3 where a side is odd, weighted by alpha if there is one. Sides of 1 stay.
-StoredImage halved(const StoredImage& image);
-// Returns a picture's numbers as floats in linear light.
-StoredImage linearFloats(const TexelGrid& picture);
+StoredImage halved(const StoredImage& image, bool isSrgb);

@@ -4,7 +4,9 @@
 
 #include "sample/equirectangular.h"
 #include "simd/lanes.h"
+#include "texture/box_checker_in_lanes.h"
 #include "texture/filtered_in_lanes.h"
+#include "texture/footprint_in_lanes.h"
 #include "texture/picture_lanes.h"
 #include "texture/texels_in_lanes.h"
 
@@ -65,6 +67,7 @@ inline void environmentColors(const Environment& environment, EnvironmentBlock& 
     }
 }
 
-inline constexpr PictureLanes kPictures{textureColors, environmentColors};
+inline constexpr PictureLanes kPictures{textureColors, environmentColors, findFootprints,
+                                           findOddParts};
 
 LANES_END

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -41,9 +42,9 @@ struct ByteTexels {
     Ints bytes;
     Doubles number(int i) const { return doublesOf(byteOf(bytes, i)); }
 };
-template <class Number> struct WideTexels {
-    static constexpr double kOne = std::is_same_v<Number, float> ? 1 : 65535;
-    const Number* at[W]; // null: outside
+struct WordTexels {
+    static constexpr double kOne = 65535;
+    const std::uint16_t* at[W]; // null: outside
     bool isOpaque;
     Doubles number(int i) const {
         alignas(64) double numbers[W];
@@ -53,6 +54,51 @@ template <class Number> struct WideTexels {
                                                        : static_cast<double>(at[lane][i]);
         return Doubles::load(numbers);
     }
+};
+struct FloatTexels {
+    static constexpr double kOne = 1;
+    Floats numbers[4];
+    Doubles number(int i) const { return Doubles(numbers[i]); }
+};
+
+// Four numbers that follow each other, for each lane in an array of its own.
+class FloatRows {
+public:
+    explicit FloatRows(std::span<const float> numbers) : whole_(wholeOf(numbers)) {
+        for (std::span<const float>& row : numbers_) row = numbers;
+    }
+    explicit FloatRows(const std::span<const float> (&numbers)[W]) : whole_(0u) {
+        alignas(64) std::uint32_t whole[W];
+        for (std::size_t i = 0; i < W; ++i)
+            numbers_[i] = numbers[i], whole[i] = wholeOf(numbers[i]);
+        whole_ = Ints::load(whole);
+    }
+    // Loads those from each number on, or as many as there are.
+    void load(Ints first, Floats (&to)[4]) const {
+        alignas(64) std::uint32_t at[W];
+        first.store(at);
+        const float* rows[W];
+        for (std::size_t i = 0; i < W; ++i) rows[i] = numbers_[i].data() + at[i];
+        unsigned atEnd = ~bits(first < whole_) & ((1u << W) - 1);
+        if (atEnd == 0) return loadRows(rows, to);
+        float copies[W][4] = {};
+        for (; atEnd != 0; atEnd &= atEnd - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(atEnd));
+            const auto rest = numbers_[i].subspan(at[i]);
+            for (std::size_t k = 0; k < rest.size() && k < 4; ++k) copies[i][k] = rest[k];
+            rows[i] = copies[i];
+        }
+        loadRows(rows, to);
+    }
+
+private:
+    // Up to where four numbers follow each other.
+    static std::uint32_t wholeOf(std::span<const float> numbers) {
+        const std::size_t size = numbers.size();
+        return static_cast<std::uint32_t>(size - std::min<std::size_t>(size, 3));
+    }
+    std::span<const float> numbers_[W];
+    Ints whole_;
 };
 
 class TexelLanes {
@@ -68,8 +114,8 @@ public:
         float* const to[] = {r, g, b};
         switch (grid_.image().depth) {
         case StoredImage::Depth::Bits8: return mix<ByteTexels>(x, y, to);
-        case StoredImage::Depth::Bits16: return mix<WideTexels<std::uint16_t>>(x, y, to);
-        case StoredImage::Depth::Float: return mix<WideTexels<float>>(x, y, to);
+        case StoredImage::Depth::Bits16: return mix<WordTexels>(x, y, to);
+        case StoredImage::Depth::Float: return mix<FloatTexels>(x, y, to);
         }
     }
 
@@ -103,15 +149,19 @@ private:
 
     static Tap tap(const Doubles& i, double size, Extension extension) {
         const Doubles zero(0.0), end(size);
-        const Mask isInside = maskOf(less(i, end) & ~less(i, zero));
         const Mask all = maskOf((1u << W) - 1);
-        if (extension != Extension::Repeat)
+        if (extension != Extension::Repeat) {
+            const Mask isInside = maskOf(less(i, end) & ~less(i, zero));
             return {min(max(i, zero), Doubles(size - 1)),
                     extension == Extension::Clip ? isInside : all};
+        }
         const Doubles notBelow = select(i < zero, i + end, i);
         return {select(notBelow < end, notBelow, notBelow - end), all};
     }
 
+    bool isClipped() const {
+        return extensionS_ == Extension::Clip || extensionT_ == Extension::Clip;
+    }
     bool hasAlpha() const { return channels_ % 2 == 0; }
     int alphaNumber() const { return hasAlpha() ? channels_ - 1 : kOpaque; }
 
@@ -127,22 +177,24 @@ private:
             const Ints bytes = bytesAt(grid_.image().bytes, first);
             const Ints whole = hasAlpha() ? bytes : (bytes & Ints(0xffffffu)) + Ints(0xff000000u);
             return {select(isInside, whole, Ints(0u))};
+        } else if constexpr (std::is_same_v<Texels, FloatTexels>) {
+            FloatTexels out;
+            FloatRows(grid_.image().floats).load(first, out.numbers);
+            if (!hasAlpha()) out.numbers[kOpaque] = Floats(1.0f);
+            if (isClipped())
+                for (Floats& number : out.numbers) number = select(isInside, number, Floats(0.0f));
+            return out;
         } else {
-            Texels out;
+            WordTexels out;
             alignas(64) std::uint32_t number[W];
             first.store(number);
             out.isOpaque = !hasAlpha();
             for (std::size_t lane = 0; lane < W; ++lane)
-                out.at[lane] =
-                    (bits(isInside) >> lane & 1) != 0 ? numbersFrom(out, number[lane]) : nullptr;
+                out.at[lane] = (bits(isInside) >> lane & 1) != 0
+                                   ? grid_.image().words.data() + number[lane]
+                                   : nullptr;
             return out;
         }
-    }
-    const std::uint16_t* numbersFrom(const WideTexels<std::uint16_t>&, std::uint32_t first) const {
-        return grid_.image().words.data() + first;
-    }
-    const float* numbersFrom(const WideTexels<float>&, std::uint32_t first) const {
-        return grid_.image().floats.data() + first;
     }
     // Returns four bytes from each number on, or as many as there are.
     static Ints bytesAt(std::span<const std::uint8_t> bytes, Ints first) {
@@ -178,10 +230,9 @@ private:
             texels[3] = texelsAt<Texels>(x.hi, y.hi);
         }
         const auto alphaOf = [&](std::size_t i) { return texels[i].number(alphaNumber()); };
-        const bool isClipped = extensionS_ == Extension::Clip || extensionT_ == Extension::Clip;
         unsigned uneven = 0; // lanes where something covers, and not all alike
         Doubles covered(0.0);
-        if (!wantsAlpha_ && !grid_.isNearest() && (hasAlpha() || isClipped)) {
+        if (!wantsAlpha_ && !grid_.isNearest() && (hasAlpha() || isClipped())) {
             unsigned even = (1u << W) - 1;
             for (std::size_t i = 1; i < 4; ++i)
                 even &= atMost(alphaOf(0), alphaOf(i)) & atMost(alphaOf(i), alphaOf(0));
@@ -197,7 +248,8 @@ private:
                 const auto share = [&](std::size_t i) { return alphaOf(i) * numberOf(i); };
                 mixed = select(maskOf(uneven), mixedOf(share, x, y) / covered, mixed);
             }
-            return (mixed / Doubles(Texels::kOne)).toFloats();
+            if constexpr (Texels::kOne != 1) mixed = mixed / Doubles(Texels::kOne);
+            return mixed.toFloats();
         };
         const bool isGrey = wantsAlpha_ || channels_ < 3;
         for (int c = 0; c < (isGrey ? 1 : 3); ++c) {
