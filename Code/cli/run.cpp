@@ -110,6 +110,15 @@ Diagnostics told(const Scene& scene) {
     return diagnostics;
 }
 
+void describePictures(const LoadedScene& loaded, const RenderSettings& settings,
+                      const Options& options, Stats& stats) {
+    std::vector<std::size_t> used;
+    if (settings.switches.textures) used = usedTextures(loaded.desc, !settings.background);
+    const PictureBytes bytes =
+        pictureBytes(loaded.desc, used, loaded.source.name, options.textureFolder);
+    stats.readPictureBytes = bytes.shown, stats.unreadPictureBytes = bytes.unshown;
+}
+
 ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,
                      const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
     const PictureSize size = checkedSize(settings.picture, options.cropPad);
@@ -123,6 +132,8 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     step = {"building the scene", ExitCode::Input};
     // What else is to be told of places in the text is of pictures that can't be read.
     if (loaded.desc.textures.empty()) loaded.source.text = {};
+    if (options.stats != Options::StatsFormat::None)
+        describePictures(loaded, settings, options, stats);
     const Scene scene(std::move(loaded.desc), loaded.source, settings, &pictures);
     if (isTooStrict(options, told(scene))) return ExitCode::StrictWarnings;
     scene.describe(stats);
@@ -139,7 +150,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     }
     if (stopped) writeStderr("raytracer: interrupted; what is done is written\n");
     stats.renderSeconds = watch.lap();
-    stats.mipBytes = scene.mipBytes();
+    stats.mipBytes = scene.mipBytes(), stats.unmadeMipBytes = scene.unmadeMipBytes();
     if (!stopped) {
         printShortfall(stats, options);
         printExposure(picture, scene, settings, output);

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/option_setters.h"
+#include "cli/skipped_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,6 +111,32 @@ void addFeatures(Table& table, const Stats& stats) {
         table.line((i == 0 ? "skipped  " : "         ") + stats.featuresSkipped[i]);
 }
 
+// Only what was skipped: "12 345  rays (30.1 %, about 0.120 s)".
+void addSkippedWork(Table& table, const Stats& stats) {
+    table.heading("skipped work");
+    bool isAny = false;
+    for (const SkippedRow& row : skippedWork(stats)) {
+        if (row.count == 0) continue;
+        const std::string seconds =
+            row.seconds ? cat(", about ", fixed(*row.seconds, 3), " s") : "";
+        table.row(row.name, grouped(row.count),
+                  cat(row.unit, " (", fixed(100 * row.share(), 1), " %", seconds, ")"));
+        isAny = true;
+    }
+    if (!isAny) table.line("none");
+}
+
+std::string skippedJson(const Stats& stats) {
+    JsonObject all;
+    for (const SkippedRow& row : skippedWork(stats)) {
+        JsonObject one;
+        one.add("count", row.count).add("of", row.of);
+        if (row.seconds) one.add("seconds", *row.seconds);
+        all.add(row.key, one.text());
+    }
+    return all.text();
+}
+
 } // namespace
 
 std::string mebibytes(std::uint64_t bytes) {
@@ -167,6 +194,7 @@ std::string statsTable(const Stats& s) {
     table.row("nan samples", grouped(s.nanSamples));
     table.row("degenerate primitives", grouped(s.degeneratePrimitives));
     addFeatures(table, s);
+    addSkippedWork(table, s);
     return table.text();
 }
 
@@ -197,7 +225,7 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
     all.add("peak_bytes", s.peakBytes).add("mip_bytes", s.mipBytes);
     all.add("threads", static_cast<std::uint64_t>(s.threads));
     all.add("kernel", quoted(s.kernel));
-    all.add("features", features.text());
+    all.add("features", features.text()).add("skipped_work", skippedJson(s));
     if (s.error) {
         all.add("error_estimate", s.error->estimate);
         all.add("error_unit", quoted(unitOf(*s.error)));

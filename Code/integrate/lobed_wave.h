@@ -331,6 +331,8 @@ void integrateInWaves(const IntegratorContext& context, SampleChunk& chunk, Wave
         closest(context.scene, *rays, memory.hits);
         WaveOf(wave).run();
         if (depth == 0) cameraHits += memory.points.count;
+        counts.points += memory.points.count;
+        counts.skipped.unshadedPoints += memory.points.count - memory.path.alike.size();
         std::swap(memory.rays, memory.next);
         std::swap(memory.path.states, memory.path.nextStates);
         rays = &memory.rays;

@@ -50,6 +50,9 @@ private:
         const std::uint32_t flags = path_.lobes.flags;
         if ((flags & kHasSides) != 0) findBoundaries(of, block.eta);
         context_.settings.isa->shading->scatter(lights_, *of.at, path_.lobes, block);
+        if ((flags & kAnswersLights) != 0 && !lights_.isEmpty())
+            wave_.counts.skipped.unlitSamples +=
+                static_cast<std::uint64_t>(std::popcount(block.points & ~block.lit));
         takeLight(of);
         takeRays(of, flags);
     }
@@ -153,7 +156,10 @@ private:
             Rgb weight = rays.weight[ray] * Rgb{w.x, w.y, w.z};
             if (bounces > kBouncesWithoutRoulette) {
                 const float go = clamp(maxChannel(weight), kLeastToGo, 1.0f);
-                if (!(block.numbers.goesOn.u[i] < go)) continue;
+                if (!(block.numbers.goesOn.u[i] < go)) {
+                    ++wave_.counts.skipped.endedPaths;
+                    continue;
+                }
                 weight = weight * (1 / go);
             }
             state.pdf = block.pdf[i];

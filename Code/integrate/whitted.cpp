@@ -107,8 +107,10 @@ private:
                                                 path_.bounces);
         if (block.takesEvenLight) addEvenLight(of);
         if (path_.bounces.rays > 0) takeBounces(of);
-        for (std::size_t i = 0; i < lamps.size(); ++i)
+        for (std::size_t i = 0; i < lamps.size(); ++i) {
+            wave_.counts.skipped.unlitSamples += of.size * lamps[i].samples - lamps[i].rays;
             takeRays(lamps[i], path_.lampRays[i], path_.lampOrigins[i]);
+        }
     }
     // Numbers for rays of lobes, and places on soft lamps for all samples.
     void drawNumbers(const AlikePoints& of, std::span<const LampQueue> lamps) {
@@ -142,7 +144,11 @@ private:
         const std::size_t i = points.ray[k];
         const PathBatch& rays = wave_.rays;
         const Rgb weight = rays.weight[i] * at.of->filter * (1 - opacity);
-        if (!(opacity < 1) || !goesOn(weight)) return;
+        if (!(opacity < 1) || wave_.depth >= limits_.maxDepth) return;
+        if (!waves::worthTracing(wave_, weight)) {
+            ++wave_.counts.skipped.weakRays;
+            return;
+        }
         memory_.next.push({leave(at.surface, -at.eye.ng), rays.dir[i], 0, kInfinityF, rays.time[i]},
                           rays.sample[i], weight, rays.medium[i], rays.stream[i],
                           rays.seesLights[i]);
@@ -151,9 +157,6 @@ private:
         state = stateOf(i);
         if (context_.filtersTextures()) state.cone = waves::coneThrough(wave_, k);
         ++wave_.counts.refract;
-    }
-    bool goesOn(Rgb weight) const {
-        return wave_.depth < limits_.maxDepth && waves::worthTracing(wave_, weight);
     }
 
     void addEvenLight(const AlikePoints& of) {
@@ -200,12 +203,12 @@ private:
     void takeRays(const LampQueue& lamp, RayBatch& rays, PathMemory::Origins& origins) {
         const PathLights::Entry& entry = lights_.entry(lamp.light);
         const std::size_t from = rays.size() - (lamp.samples + 1) * kPoints, to = from + lamp.rays;
+        wave_.counts.shadow += lamp.rays;
         if (entry.isOpen) {
             for (std::size_t i = from; i < to; ++i) path_.sums[rays.sample[i]] += rays.weight[i];
             return rays.shrink(from);
         }
         rays.shrink(to);
-        wave_.counts.shadow += lamp.rays;
         if (!entry.isPlace || !(origins.place == entry.place)) origins = {entry.place, 0};
         if (entry.isPlace && origins.count < to) {
             std::fill_n(rays.org.data() + origins.count, to - origins.count, entry.place);
@@ -231,7 +234,10 @@ private:
         for (std::size_t r = 0; r < from.rays; ++r) {
             const std::size_t k = of.number[from.point[r]], ray = points.ray[k];
             const Rgb weight = points.weight[k] * from.weight[r];
-            if (!waves::worthTracing(wave_, weight)) continue;
+            if (!waves::worthTracing(wave_, weight)) {
+                ++wave_.counts.skipped.weakRays;
+                continue;
+            }
             const bool crosses =
                 from.isBelow[r] &&
                 (lobeTypes()[path_.lobes.lobe[(from.branch[r] - 1) / 2].kind].flags & kHasSides) !=
@@ -240,6 +246,7 @@ private:
                                                               next.dir[same] == from.dir[r] &&
                                                               path_.nextStates[same].pdf == 0) {
                 next.weight[same] = next.weight[same] + weight;
+                ++wave_.counts.skipped.sharedRays;
                 continue;
             }
             last[from.point[r]] = to;

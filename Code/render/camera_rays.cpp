@@ -151,6 +151,11 @@ void CameraRays::drawTimes(SampleChunk& chunk) const {
         times[i] = sampler.get1D(chunk.cameraRays.stream[i], chunk.sampleNumber[i], kTimeDimension);
 }
 
+std::uint64_t CameraRays::numbersLeftOut() const {
+    const std::uint64_t place = isInMiddle_ ? 2 : 0, lens = drawsLens() ? 0 : 2;
+    return place + lens + (drawsTimes() ? 0 : 1);
+}
+
 // What all rays of a picture share is written once.
 void CameraRays::setConstants(SampleChunk& chunk) const {
     PathBatch& rays = chunk.cameraRays;
@@ -172,10 +177,8 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     moveFromMiddles(chunk);
     setConstants(chunk);
     PathBatch& rays = chunk.cameraRays;
-    // The general form draws what it may not need; what does not use it does not notice.
-    const bool isGeneral = !context_.settings.specialise;
-    if (isGeneral || context_.scene.moves()) drawTimes(chunk);
-    if (isGeneral || camera.hasLens())
+    if (drawsTimes()) drawTimes(chunk);
+    if (drawsLens())
         drawPairs(kLensDimension, chunk,
                   [&](const PairBlock& pairs, std::size_t slot, std::size_t) {
                       std::copy_n(pairs.u, kBlock, chunk.places[slot / kBlock].u);

@@ -18,6 +18,9 @@ public:
     void make(const Tile& tile, int first, int count, SampleChunk& chunk) const;
 
     bool throughCorners() const { return corners_; }
+    // Random numbers that make a ray where everything is drawn, and those of them that are not.
+    static constexpr std::uint64_t kNumbers = 5;
+    std::uint64_t numbersLeftOut() const;
     int placesPerRow() const { return width_; } // of the whole picture
     // No sample is farther from the middle of its place than this, in pixels.
     double reach() const { return corners_ ? 0 : filter_.radius(); }
@@ -39,6 +42,11 @@ private:
     void drawPairs(std::uint32_t dimension, const SampleChunk& chunk, const TakeFn& take) const;
     // Sampler::get1D() of all slots.
     void drawTimes(SampleChunk& chunk) const;
+    // The general form draws what it may not need; what does not use it does not notice.
+    bool drawsTimes() const { return !context_.settings.specialise || context_.scene.moves(); }
+    bool drawsLens() const {
+        return !context_.settings.specialise || context_.scene.camera().hasLens();
+    }
     void setConstants(SampleChunk& chunk) const;
 
     const IntegratorContext& context_;

@@ -179,12 +179,11 @@ private:
 
     // What renderTile() would, of samples that are all the same.
     void showBackground(const Tile& tile, TileWorker& worker) {
-        const auto count = static_cast<std::uint64_t>(settings_.picture.samplesPerPixel);
-        worker.rays.camera += count * static_cast<std::uint64_t>(tile.width() * tile.height());
+        TileSampler::countEmpty(tile, settings_.picture.samplesPerPixel, worker.rays);
         worker.color.reset(1, 1, sampler_.units().color);
         worker.color.addToAll(sampler_.background(), settings_.picture.samplesPerPixel);
         color_->fill(onCanvas(tile), worker.color.mean(0, 0));
-        const float samples = static_cast<float>(count);
+        const float samples = static_cast<float>(settings_.picture.samplesPerPixel);
         for (std::size_t a = 0; a < aovs_.size(); ++a)
             if (settings_.aovs[a] == Aov::Samples)
                 fill(aovs_[a], tile, {samples, samples, samples}); // else nothing was met: black

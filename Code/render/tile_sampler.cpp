@@ -42,8 +42,7 @@ bool TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
     worker.largest = 0;
     const int pixels = tile.width() * tile.height();
     if (settings_.refinement && emptyTiles_.isEmpty(tile)) {
-        worker.rays.camera +=
-            static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(pixels);
+        countEmpty(tile, samples, worker.rays);
         worker.color.addToAll(background(), samples);
         for (Film& film : worker.aovs) film.addToAll({}, samples); // nothing was met
         return true;
@@ -61,8 +60,15 @@ bool TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
     return true;
 }
 
+void TileSampler::countEmpty(const Tile& tile, int samples, RayCounts& counts) {
+    const auto rays = static_cast<std::uint64_t>(samples) *
+                      static_cast<std::uint64_t>(tile.width() * tile.height());
+    counts.camera += rays, counts.skipped.emptyTileRays += rays;
+}
+
 void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const {
     cameraRays_.make(tile, first, count, worker.chunk);
+    worker.rays.skipped.rayNumbers += numbersLeftOut() * worker.chunk.cameraRays.size();
     worker.chunk.radiance.resize(worker.chunk.cameraRays.size());
     std::memset(static_cast<void*>(worker.chunk.radiance.data()), 0,
                 worker.chunk.radiance.size() * sizeof(Rgb));

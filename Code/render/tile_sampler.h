@@ -34,6 +34,8 @@ public:
     bool throughCorners() const { return cameraRays_.throughCorners(); }
     const IntegratorContext& context() const { return context_; }
     double reach() const { return cameraRays_.reach(); }
+    // Random numbers that each camera ray does without.
+    std::uint64_t numbersLeftOut() const { return cameraRays_.numbersLeftOut(); }
     const FilmUnits& units() const { return units_; }
 
     // Traces samples begin .. begin + samples - 1 of all places of the tile, into the worker's
@@ -49,6 +51,8 @@ public:
     bool isEmpty(const Tile& tile) const { return emptyTiles_.isEmpty(tile); }
     // What they see then, where that is the same for all.
     Rgb background() const;
+    // Counts so many samples of each place of such a tile.
+    static void countEmpty(const Tile& tile, int samples, RayCounts& counts);
 
 private:
     void traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const;

@@ -474,3 +474,10 @@ std::uint64_t Scene::mipBytes() const {
         if (texture != nullptr) sum += texture->mips().bytes();
     return sum;
 }
+
+std::uint64_t Scene::unmadeMipBytes() const {
+    std::uint64_t all = 0;
+    for (const auto& texture : textures_)
+        if (texture != nullptr) all += texture->mips().bytesOfAll(texture->grid());
+    return all - mipBytes();
+}

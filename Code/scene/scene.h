@@ -72,6 +72,7 @@ public:
     void describe(Stats& stats) const;
     // Returns the memory of the mip levels that have been made so far.
     std::uint64_t mipBytes() const;
+    std::uint64_t unmadeMipBytes() const; // of those that there could be
 
 private:
     friend class SceneBuilder;

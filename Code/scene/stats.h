@@ -8,18 +8,41 @@
 #include <string>
 #include <vector>
 
+// Work that a picture would need if nothing were known before it is done. It is counted by the tile,
+// the wave or the block of points, and by the ray only where one is left out.
+struct SkippedWork {
+    std::uint64_t emptyTileRays = 0; // camera rays through tiles that show no shape
+    std::uint64_t rayNumbers = 0;    // random numbers that make camera rays, of sharp and still pictures
+    std::uint64_t unlitSamples = 0;  // of lamps: behind the horizon, out of reach, or not reflected
+    std::uint64_t unshadedPoints = 0; // on what only shines or is black, and at the ends of paths
+    std::uint64_t weakRays = 0;       // with less weight than the cutoff
+    std::uint64_t endedPaths = 0;     // by Russian roulette
+    std::uint64_t sharedRays = 0;     // of two lobes that send the same ray
+
+    SkippedWork& operator+=(const SkippedWork& o) {
+        emptyTileRays += o.emptyTileRays, rayNumbers += o.rayNumbers;
+        unlitSamples += o.unlitSamples, unshadedPoints += o.unshadedPoints;
+        weakRays += o.weakRays, endedPaths += o.endedPaths, sharedRays += o.sharedRays;
+        return *this;
+    }
+};
+
 struct RayCounts {
+    // Camera rays are samples of the picture, those of empty tiles included.
     std::uint64_t camera = 0, reflect = 0, refract = 0, indirect = 0;
-    // Asked: one for every sample of a lamp that casts shadows and would light a point, however it
-    // is known what is in between. Where no sample is drawn, all that a lamp has count at points
-    // that are known to be in its shadow, none where the light is known in closed form.
+    // Samples of lamps that would light a point if nothing is in between.
     std::uint64_t shadow = 0;
-    std::uint64_t tracedShadow = 0; // those of them for which a ray was traced
+    std::uint64_t tracedShadow = 0; // those of lamps that cast shadows
+    std::uint64_t points = 0;       // that rays have met
+    SkippedWork skipped;
     // All that were traced.
-    std::uint64_t total() const { return camera + tracedShadow + reflect + refract + indirect; }
+    std::uint64_t total() const {
+        return camera - skipped.emptyTileRays + tracedShadow + reflect + refract + indirect;
+    }
     RayCounts& operator+=(const RayCounts& o) {
         camera += o.camera, shadow += o.shadow, reflect += o.reflect, refract += o.refract;
-        indirect += o.indirect, tracedShadow += o.tracedShadow;
+        indirect += o.indirect, tracedShadow += o.tracedShadow, points += o.points;
+        skipped += o.skipped;
         return *this;
     }
 };
@@ -51,6 +74,9 @@ struct Stats {
     AccelStats accel;
     std::uint64_t peakBytes = 0;
     std::uint64_t mipBytes = 0; // smaller copies of pictures, made while they were looked up
+    std::uint64_t unmadeMipBytes = 0;     // those that were not looked up
+    std::uint64_t unreadPictureBytes = 0; // files of pictures that nothing shows
+    std::uint64_t readPictureBytes = 0;   // the others
     int threads = 1;
     std::string kernel;
     std::vector<std::string> featuresNeeded,

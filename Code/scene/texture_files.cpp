@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -85,6 +86,21 @@ std::optional<StoredImage> findAndRead(const TextureDesc& texture, const std::st
         fault = cat("texture '", texture.name, "' can't be read: ", error.what());
         return {};
     }
+}
+
+PictureBytes pictureBytes(const SceneDesc& desc, const std::vector<std::size_t>& used,
+                          const std::string& sceneFile, const std::string& textureFolder) {
+    std::map<std::string, bool> isShown;
+    for (std::size_t i = 0; i < desc.textures.size(); ++i)
+        if (const auto path = findPicture(desc.textures[i].file, sceneFile, textureFolder))
+            isShown[*path] |= std::find(used.begin(), used.end(), i) != used.end();
+    PictureBytes bytes;
+    for (const auto& [path, shown] : isShown) {
+        std::error_code unknown;
+        const std::uintmax_t size = fs::file_size(path, unknown);
+        if (!unknown) (shown ? bytes.shown : bytes.unshown) += size;
+    }
+    return bytes;
 }
 
 StoredImage loadPicture(const TextureDesc& texture, const SourceFile& source,

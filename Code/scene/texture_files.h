@@ -6,6 +6,7 @@
 #include "image/image.h"
 
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -19,6 +20,13 @@ std::vector<std::size_t> usedTextures(const SceneDesc& desc, bool showsEnvironme
 // Where the picture is that a texture of the scene in `sceneFile` names: see loadPicture().
 std::optional<std::string> findPicture(const std::string& file, const std::string& sceneFile,
                                        const std::string& textureFolder);
+
+// The sizes of the files of a scene's pictures, each counted once: those that it shows, and others.
+struct PictureBytes {
+    std::uint64_t shown = 0, unshown = 0;
+};
+PictureBytes pictureBytes(const SceneDesc& desc, const std::vector<std::size_t>& used,
+                          const std::string& sceneFile, const std::string& textureFolder);
 
 // Searched beside the scene file, in `textureFolder` (if not empty) and in Textures/, each with the
 // path as written and then by the file's name alone. Fails at the texture's line in the scene file

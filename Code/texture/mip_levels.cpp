@@ -160,3 +160,13 @@ std::uint64_t MipLevels::bytes() const {
         if (level) sum += level->image().floats.size() * sizeof(float);
     return sum;
 }
+
+std::uint64_t MipLevels::bytesOfAll(const TexelGrid& picture) const {
+    std::uint64_t texels = 0;
+    int width = picture.width(), height = picture.height();
+    for (int number = 1; number < count_; ++number) {
+        width = halfOf(width), height = halfOf(height);
+        texels += static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
+    }
+    return texels * static_cast<std::uint64_t>(picture.image().channels) * sizeof(float);
+}

@@ -25,6 +25,8 @@ public:
     // Returns the memory of all levels that are there: at most 4/3 times 4 bytes for each channel of every fourth
     // texel.
     std::uint64_t bytes() const;
+    // Returns the memory of all levels that there could be.
+    std::uint64_t bytesOfAll(const TexelGrid& picture) const;
 
 private:
     static constexpr int kMost = 17; // sides go to 65535

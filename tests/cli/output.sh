@@ -37,7 +37,7 @@ check 'JSON: only an object' grep -qx '{.*}' out
 for key in scene output width height arguments version seconds parse build render write total rays camera shadow reflect refract indirect hits \
     rays_per_second accel kind nodes leaves bytes sah triangles bytes_per_triangle \
     peak_bytes threads kernel features needed \
-    skipped samples min mean max numeric nan_samples degenerate_primitives; do
+    skipped skipped_work empty_tile_rays count of samples min mean max numeric nan_samples degenerate_primitives; do
     has out "\"$key\":" || fail 'JSON: all keys' "no $key"
 done
 check 'JSON: samples are counted' has out '"camera":1536'

@@ -100,7 +100,9 @@ TEST(emptySceneIsItsBackground) {
             "settings {\n resolution 5 4\n samples 3\n}\nworld {\n background 0.25 0.5 4\n}\n" +
             camera);
         for (const Rgb& pixel : shot.color.pixels()) CHECK((pixel == Rgb{0.25f, 0.5f, 4}));
-        CHECK_EQUAL(shot.stats.rays.total(), 60u);
+        CHECK_EQUAL(shot.stats.rays.camera, 60u);
+        CHECK_EQUAL(shot.stats.rays.skipped.emptyTileRays, 60u);
+        CHECK_EQUAL(shot.stats.rays.total(), 0u);
         CHECK_EQUAL(shot.stats.cameraHits, 0u);
     }
     const Image other =

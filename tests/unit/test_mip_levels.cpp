@@ -119,6 +119,9 @@ TEST(mip_levels_are_made_when_they_are_looked_up) {
     CHECK_EQUAL(mips.bytes(), std::uint64_t{64 * 64 + 32 * 32} * 3 * 4);
     for (int i = 1; i < mips.count(); ++i) mips.level(picture, i);
     CHECK(mips.bytes() <= std::uint64_t{256 * 256 * 3} * 4 / 3);
+    CHECK_EQUAL(mips.bytesOfAll(picture), mips.bytes());
+    const TexelGrid narrow(someBytes(random, 5, 1, 2), ColorSpace::Srgb, Interpolation::Bilinear);
+    CHECK_EQUAL(MipLevels(narrow).bytesOfAll(narrow), std::uint64_t{2 + 1} * 2 * 4);
 }
 
 } // namespace test_mip_levels

@@ -65,7 +65,9 @@ Stats example() {
     stats.rays.camera = 1000, stats.rays.shadow = 4000, stats.rays.tracedShadow = 3000;
     stats.cameraHits = 900;
     stats.accel = {"bvh", 11, 6, 352, 40, 32, 1600, 12.5};
-    stats.peakBytes = 123456789, stats.mipBytes = 777;
+    stats.rays.skipped.emptyTileRays = 500, stats.rays.skipped.unlitSamples = 1000;
+    stats.rays.points = 40, stats.rays.skipped.unshadedPoints = 10;
+    stats.peakBytes = 123456789, stats.mipBytes = 777, stats.unmadeMipBytes = 111;
     stats.threads = 2;
     stats.kernel = "scalar";
     stats.featuresNeeded = {"shadows", "a \"b\"\\\n\x01"};
@@ -87,11 +89,19 @@ TEST(stats_json_has_the_keys_of_the_contract) {
           "\"seconds\":{\"parse\":0,\"build\":0,\"render\":2,\"write\":0,\"total\":2.5}",
           "\"rays\":{\"camera\":1000,\"shadow\":4000,\"shadow_traced\":3000,\"reflect\":0,"
           "\"refract\":0,\"indirect\":0}",
-          "\"hits\":{\"camera\":900}", "\"rays_per_second\":2000",
+          "\"hits\":{\"camera\":900}", "\"rays_per_second\":1750",
           "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5,"
           "\"triangles\":32,\"bytes_per_triangle\":50}",
           "\"peak_bytes\":123456789", "\"mip_bytes\":777", "\"threads\":2", "\"kernel\":\"scalar\"",
           "\"features\":{\"needed\":[\"shadows\",\"a \\\"b\\\"\\\\\\u000a\\u0001\"],\"skipped\":[",
+          // 3500 rays in 2 s
+          "\"skipped_work\":{\"empty_tile_rays\":{\"count\":500,\"of\":1000},"
+          "\"settled_samples\":{\"count\":0,\"of\":1000,\"seconds\":0},"
+          "\"ray_numbers\":{\"count\":0,\"of\":2500},"
+          "\"unshaded_points\":{\"count\":10,\"of\":40},\"unlit_samples\":{\"count\":1000,\"of\":5000,"
+          "\"seconds\":0.57142857142857",
+          "\"open_lamps\":{\"count\":1000,\"of\":4000,\"seconds\":0.57142857142857",
+          "\"unread_picture_bytes\":{\"count\":0,\"of\":0},\"unmade_mip_bytes\":{\"count\":111,\"of\":888}}",
           "\"samples\":{\"min\":16,\"mean\":16,\"max\":16}",
           "\"numeric\":{\"nan_samples\":1,\"degenerate_primitives\":0}"})
         CHECK_INFO(json.find(part) != std::string::npos, part << " in " << json);
@@ -116,6 +126,26 @@ TEST(stats_table_is_aligned_and_complete) {
          {"camera                             1 000", "Mray/s", "50.0 bytes per triangle",
           "skipped  dof: aperture_radius is 0\n           aa: one sample", "bvh"})
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
+}
+
+// Of what was skipped, only what there was; with the seconds where they are known.
+TEST(stats_table_says_what_was_skipped) {
+    const std::string table = statsTable(example());
+    for (const char* part : {"rays of empty tiles                  500 rays (50.0 %)\n",
+                             "unlit samples of lamps             1 000 shadow rays (20.0 %, about 0.571 s)\n",
+                             "mip levels not made                  111 bytes (12.5 %)\n"})
+        CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
+    CHECK(table.find("cutoff") == std::string::npos);
+    CHECK(statsTable({}).find("skipped work\n  none\n") != std::string::npos);
+}
+
+// With an error goal: 1,000 samples are 100 places with 10 each; with 64 each they would have 6,400.
+TEST(stats_of_settled_samples) {
+    Stats stats = example();
+    stats.samplesMin = 4, stats.samplesMean = 10, stats.samplesMax = 64;
+    stats.error = ErrorStats{};
+    CHECK(statsTable(stats).find("settled samples                    5 400 samples (84.4 %, about 10.800 s)") !=
+          std::string::npos);
 }
 
 // What only a picture with an error goal has.
