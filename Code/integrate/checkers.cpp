@@ -32,7 +32,7 @@ float numberFor(const Wave& wave, std::uint32_t i) {
     return unitFloat(high32(bits));
 }
 
-// The points of one checker at a time, sixteen of them together.
+// MixedPoints: decides about the points of one checker after the other, sixteen at a time.
 class MixedPoints {
 public:
     MixedPoints(const Wave& wave, std::vector<MaterialMix>& mixes) : wave_(wave), mixes_(mixes) {}

@@ -79,7 +79,7 @@ struct alignas(64) LobeBlock {
             const auto i = static_cast<std::size_t>(std::countr_zero(points));
             texels.u[found] = at.uv[0][i], texels.v[found] = at.uv[1][i];
             if (footprints != nullptr)
-                for (const std::size_t axis : {0, 1}) {
+                for (std::size_t axis = 0; axis < 2; ++axis) {
                     texels.along[axis][found] = footprints->along[axis][i];
                     texels.across[axis][found] = footprints->across[axis][i];
                 }

@@ -54,7 +54,8 @@ inline void findOddParts(const AffineRows& objectFromWorld, CheckerBlock& block,
         const auto placeOn = [&](std::size_t row) {
             const double* const m = objectFromWorld.data() + 4 * row;
             const auto under = [&](const FootprintBlock::Lane(&v)[3]) {
-                return Doubles(m[0]) * in(v[0]) + Doubles(m[1]) * in(v[1]) + Doubles(m[2]) * in(v[2]);
+                return Doubles(m[0]) * in(v[0]) + Doubles(m[1]) * in(v[1]) +
+                       Doubles(m[2]) * in(v[2]);
             };
             return under(block.org) + Doubles(m[3]) + under(block.dir) * t;
         };

@@ -42,7 +42,8 @@ public:
             return wholeOf(Doubles(height_ - one - of) * rowLength_);
         };
         const auto columnAt = [&](Floats of) { return wholeOf(Doubles(of) * Doubles(channels_)); };
-        const Ints rows[] = {rowAt(y.lo), rowAt(y.hi)}, columns[] = {columnAt(x.lo), columnAt(x.hi)};
+        const Ints rows[] = {rowAt(y.lo), rowAt(y.hi)},
+                   columns[] = {columnAt(x.lo), columnAt(x.hi)};
         const Floats across[] = {one - x.weight, x.weight}, up[] = {one - y.weight, y.weight};
         const bool isClipped = extension_ == Extension::Clip, hasAlpha = channels_ % 2 == 0;
         Floats3 plain{zero, zero, zero}, covering = plain;
@@ -73,8 +74,8 @@ public:
 private:
     // Texels that coordinates fall between, as whole numbers.
     struct Taps {
-        Floats lo, hi, weight;  // of hi
-        Floats inside[2]; // 1 or 0
+        Floats lo, hi, weight; // of hi
+        Floats inside[2];      // 1 or 0
     };
     Taps taps(const Doubles& place, Floats size) const {
         const Floats half(0.5f), zero(0.0f), one(1.0f);
@@ -89,9 +90,7 @@ private:
         case Extension::Clip: s = min(max(place.toFloats(), Floats(-2.0f)), Floats(2.0f)); break;
         }
         const Floats x = s * size - half, below = floor(x), above = below + one;
-        const auto insideOf = [&](Floats i) {
-            return select((i < size) & (zero <= i), one, zero);
-        };
+        const auto insideOf = [&](Floats i) { return select((i < size) & (zero <= i), one, zero); };
         if (extension_ == Extension::Repeat)
             return {select(below < zero, below + size, below),
                     select(above < size, above, above - size), x - below, {one, one}};

@@ -56,8 +56,9 @@ void halve(const StoredImage& image, const Linear& linear, StoredImage& out) {
                     }
                 }
             }
+            const bool isWeighted = kHasAlpha && covered > 0;
             for (std::size_t c = 0; c < kColours; ++c)
-                *to++ = static_cast<float>(kHasAlpha && covered > 0 ? seen[c] / covered : plain[c]);
+                *to++ = static_cast<float>(isWeighted ? seen[c] / covered : plain[c]);
             if constexpr (kHasAlpha) *to++ = static_cast<float>(covered);
         }
     }

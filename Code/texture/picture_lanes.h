@@ -48,8 +48,8 @@ struct alignas(64) EnvironmentBlock {
     float color[3][kRays];
 };
 
-// Texture::color(), Environment::radiance() and so on of the first `count` of a block; others may get
-// colours too.
+// Texture::color(), Environment::radiance() and so on of the first `count` of a block; others may
+// get numbers too.
 struct PictureLanes {
     void (*texture)(const Texture& texture, TextureBlock& block, std::size_t count);
     void (*environment)(const Environment& environment, EnvironmentBlock& block, std::size_t count);

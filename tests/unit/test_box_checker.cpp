@@ -73,7 +73,10 @@ TEST(footprints_in_lanes_have_the_bits_of_single_ones) {
                 return static_cast<float>(random.chance(0.05) ? kOdd[random.below(5)]
                                                               : random.uniform(-most, most));
             };
-            const auto vec = [&](double most) { return Vec3{number(most), number(most), number(most)}; };
+            const auto vec = [&](double most) {
+                const float x = number(most), y = number(most);
+                return Vec3{x, y, number(most)};
+            };
             const std::size_t count = 1 + random.below(CheckerBlock::kPoints);
             for (std::size_t i = 0; i < count; ++i) {
                 const Vec3 normal = random.chance(0.3) ? Vec3{0, 0, 1} : normalize(vec(1));
