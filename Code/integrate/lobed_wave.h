@@ -122,6 +122,7 @@ protected:
 
     // Points of the block whose materials have one of these flags.
     unsigned pointsWith(std::uint32_t flags, std::size_t b) const {
+        if ((materials_.flagsOfAll() & flags) == 0) return 0;
         const std::uint32_t* const number = memory_.points.at.block(b).material;
         unsigned points = 0;
         for (std::size_t i = 0; i < memory_.points.sizeOf(b); ++i)

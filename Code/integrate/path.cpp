@@ -50,7 +50,8 @@ private:
         takePixels(of, pixels, samples);
         drawNumbers(pixels, samples);
         takeThroughputs(of, block.throughput);
-        block.points = of.all() & ~goStraight(of);
+        block.points = of.all();
+        if (scene_.hasSeeThrough()) block.points &= ~goStraight(of);
         if (block.points == 0) return;
         fillLobes(of);
         if (limits_.filterGlossy > 0) filterGlossy(of);
