@@ -25,6 +25,7 @@ step "each file compiled alone" $make all JUMBO=0 BUILD="$PWD/build/alone" BINAR
 step "each header parsed alone" sh tests/headers.sh
 step "the standard library alone" sh tests/portable.sh
 step "make valgrind" $make valgrind
+step "make bench-unused" $make bench-unused
 step "make asan by g++" $make asan CXX=g++
 step "make tidy" $make tidy
 step "same bits from six builds" $make same-builds

@@ -74,12 +74,9 @@ float footprintScaleOf(const Scene& scene, const RenderSettings& settings, bool 
 }
 
 bool mayRaysMeetLight(const Scene& scene) {
-    if (scene.pathLights().hasUnshaped() || scene.environment() != nullptr ||
-        !isBlack(scene.background(Rgb{1, 1, 1})))
-        return true;
-    for (std::size_t i = 0; i < scene.lobedMaterials().size(); ++i)
-        if ((scene.lobedMaterials()[i].flags & LobedMaterial::kEmits) != 0) return true;
-    return false;
+    return scene.pathLights().hasUnshaped() || scene.environment() != nullptr ||
+           !isBlack(scene.background(Rgb{1, 1, 1})) ||
+           (scene.lobedMaterials().flagsOfAll() & LobedMaterial::kEmits) != 0;
 }
 
 } // namespace

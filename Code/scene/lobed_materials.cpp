@@ -77,6 +77,7 @@ bool LobedMaterials::add(const std::vector<LobeRow>& lobes, const std::vector<Lo
         }
         factors_.push_back(factor);
     }
+    flagsOfAll_ |= of.flags;
     constexpr float kRoundings = 1e-5f; // of weights that files write with six digits
     mostReflected_ = max(max(sum[0], sum[1]), max(sum[2], 1.0f));
     return !(max(mostReflected_, cover) > 1 + kRoundings);

@@ -57,6 +57,8 @@ public:
 
     const LobedMaterial& operator[](std::size_t number) const { return materials_[number]; }
     std::size_t size() const { return materials_.size(); }
+    // The flags that some material has.
+    std::uint32_t flagsOfAll() const { return flagsOfAll_; }
     std::size_t signatures() const { return signatures_.size(); }
     std::span<const LobeRow> lobes(const LobedMaterial& of) const {
         return std::span(lobes_).subspan(of.firstLobe, of.lobes);
@@ -69,6 +71,7 @@ private:
     std::uint16_t signatureOf(const std::vector<LobeRow>& lobes);
 
     float mostReflected_ = 0; // of the last material
+    std::uint32_t flagsOfAll_ = 0;
     std::vector<LobedMaterial> materials_;
     std::vector<LobeRow> lobes_;
     std::vector<LobeFactor> factors_;

@@ -110,7 +110,7 @@ TEST(skipped_paths_are_ended_by_roulette) {
     };
     CHECK_EQUAL(counts("2").skipped.endedPaths, 0u);
     const RayCounts deep = counts("3"), more = counts("9");
-    // Fourth bounces of weight 0.8^4: as many as are tried go on or are ended, whatever comes after.
+    // Of the fourth bounces of a path some are ended, whatever comes after.
     CHECK(deep.skipped.endedPaths > 0);
     CHECK(more.skipped.endedPaths > deep.skipped.endedPaths);
     CHECK(more.indirect > deep.indirect);
