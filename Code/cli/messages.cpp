@@ -31,15 +31,9 @@ void printAdvice(const RenderSettings& settings, const Options& options) {
     using Sampler = SettingsDesc::Sampler;
     const auto samples = static_cast<unsigned>(settings.picture.samplesPerPixel);
     const Sampler sampler = settings.picture.sampler;
-    if (!options.quiet && settings.picture.denoise) {
-        if (samples < 8)
-            writeStderr("raytracer: note: fewer than 8 samples per pixel hardly tell noise from "
-                        "what is seen; --denoise works better with more\n");
-        if (samples % 4 != 0)
-            writeStderr(cat("raytracer: note: --denoise makes four parts of ", samples / 4,
-                            " samples per pixel each; ", samples % 4, " of ", samples,
-                            " are left out\n"));
-    }
+    if (!options.quiet && settings.picture.denoise && samples < 8)
+        writeStderr("raytracer: note: fewer than 8 samples per pixel hardly tell noise from "
+                    "what is seen; --denoise works better with more\n");
     if (options.quiet || (sampler != Sampler::Sobol && sampler != Sampler::ZSobol) ||
         std::has_single_bit(samples))
         return;
@@ -47,9 +41,12 @@ void printAdvice(const RenderSettings& settings, const Options& options) {
                     "; a power of two (", std::bit_ceil(samples), ") has less noise\n"));
 }
 
-void printShortfall(const Stats& stats, const Options& options) {
+void printShortfall(const Stats& stats, const RenderSettings& settings, const Options& options) {
     if (options.quiet || !stats.error) return;
     const ErrorStats& error = *stats.error;
+    if (settings.picture.denoise && !stats.denoisedError)
+        writeStderr("raytracer: note: the picture is not denoised: some of its pixels have had one pass, "
+                    "which does not show their noise\n");
     if (error.goal && error.estimate > *error.goal && error.cappedPixels > 0)
         writeStderr(cat("raytracer: note: the estimated error is ", significant(error.estimate),
                         ", not below ", shortest(*error.goal), ": ", error.cappedPixels,

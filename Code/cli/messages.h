@@ -21,7 +21,7 @@ void printWarnings(const Diagnostics& diagnostics);
 bool isTooStrict(const Options& options, const Diagnostics& diagnostics);
 void printAdvice(const RenderSettings& settings, const Options& options);
 // What was asked for was not reached, because --spp allows no more.
-void printShortfall(const Stats& stats, const Options& options);
+void printShortfall(const Stats& stats, const RenderSettings& settings, const Options& options);
 // What adviceOn() has to say of a picture of light; a warning, but the picture is there all the
 // same: it is no reason for --strict.
 void printExposure(const Picture& picture, const Scene& scene, const RenderSettings& settings,

@@ -152,7 +152,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     stats.renderSeconds = watch.lap();
     stats.mipBytes = scene.mipBytes(), stats.unmadeMipBytes = scene.unmadeMipBytes();
     if (!stopped) {
-        printShortfall(stats, options);
+        printShortfall(stats, settings, options);
         printExposure(picture, scene, settings, output);
     }
 

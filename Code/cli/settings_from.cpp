@@ -102,7 +102,7 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     picture.filterWidth = 0;
 }
 
-// Two halves of two parts each are made.
+// Halves of the samples of each pixel, and what they come to when they double, show what is noise.
 void checkDenoising(SettingsDesc& picture, const Options& options) {
     if (!picture.denoise) return;
     using Integrator = SettingsDesc::Integrator;
@@ -114,10 +114,8 @@ void checkDenoising(SettingsDesc& picture, const Options& options) {
         picture.denoise = false; // the scene means its picture of light
         return;
     }
-    if ((options.error || options.seconds || options.passes) && options.action == Options::Action::Render)
-        failUsage("--denoise and --error, --time or --passes do not go together: their samples are "
-                  "chosen by the noise; --no-denoise or --spp helps");
-    if (picture.samplesPerPixel < 4)
+    const bool isRefined = options.error || options.seconds || options.passes;
+    if (!isRefined && picture.samplesPerPixel < 4)
         failUsage(cat("--denoise needs 4 or more samples per pixel, not ", picture.samplesPerPixel,
                       ": their differences show what is noise; --spp 4 or --no-denoise helps"));
 }

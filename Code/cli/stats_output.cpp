@@ -189,7 +189,8 @@ std::string statsTable(const Stats& s) {
                   "(one sample is a tenth of their light)");
     }
     if (s.denoisedError)
-        table.row("denoised: estimated error", significant(*s.denoisedError), "(RMSE as shown)");
+        table.row("denoised: estimated error", significant(*s.denoisedError),
+                  s.error ? cat("(", unitOf(*s.error), ")") : "(RMSE as shown)");
     table.heading("numeric");
     table.row("nan samples", grouped(s.nanSamples));
     table.row("degenerate primitives", grouped(s.degeneratePrimitives));

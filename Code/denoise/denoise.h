@@ -2,10 +2,9 @@
 // approach to Monte Carlo denoising" (2024): a pixel becomes the mean of those around it that do not
 // differ from it by more than their noise explains, and that show the same material and normal.
 //
-// A picture comes as two halves, each of half of the samples and independent of the other, in two
-// parts each, whose difference shows the noise of the half. Each half is filtered by what it knows
-// itself, which lets the error of the result be known, its bias included: the other half had no say
-// in it. Knows nothing of scenes.
+// A picture comes as two halves, each the mean of half of the samples. Their differences show the noise,
+// and each half is filtered by its own colours, so that what the filter takes of the noise of a pixel
+// shows as well. Knows nothing of scenes.
 #pragma once
 
 #include "image/image.h"
@@ -14,20 +13,21 @@
 #include <array>
 #include <cstddef>
 
-// What some of the samples show: linear values, and their first hits, black where there is none.
-struct PartPicture {
-    Image color, albedo, normal;
-};
-using HalfPicture = std::array<PartPicture, 2>;
+// Two halves of samples: `mean` of both, and `difference`, half of the first less the second.
+struct HalvedImage {
+    Image mean, difference;
 
-struct Denoised {
-    Image color;
-    // The squared error of each pixel and channel, estimated: means over many pixels say something,
-    // a single one may be negative.
-    Image squaredError;
+    Rgb half(std::size_t number, int x, int y) const {
+        const Rgb m = mean.pixel(x, y), d = difference.pixel(x, y);
+        return number == 0 ? m + d : m - d;
+    }
 };
 
-// Filters both halves; all pictures have one size. What is above `brightest` counts as that in the estimated
-// error. The bits are the same for any kernel and number of threads.
-Denoised denoise(const std::array<HalfPicture, 2>& halves, float brightest, const Isa& isa,
-                 int threads);
+// Linear values, and what the first hits of the samples show, black where there is none.
+struct HalvedPicture {
+    HalvedImage color, albedo, normal;
+};
+
+// Returns the filtered halves of the colour; all images have one size. The bits are the same for any
+// kernel and number of threads.
+std::array<Image, 2> denoise(const HalvedPicture& picture, const Isa& isa, int threads);

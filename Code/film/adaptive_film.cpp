@@ -3,15 +3,32 @@
 #include "base/math.h"
 #include "base/parallel.h"
 
+#include <algorithm>
 #include <cmath>
+
+namespace {
+
+// Writes half the differences of what a part of the picture has and what it gets, which begins at (x0, y0).
+void addDifference(const Film& before, const Film& batch, int x0, int y0, Image& to) {
+    for (int y = 0; y < batch.height(); ++y)
+        for (int x = 0; x < batch.width(); ++x) {
+            const Vec3 half = toFloat(Film::halfDifference(before.at(x0 + x, y0 + y), batch.at(x, y),
+                                                           before.perUnit()));
+            to.setPixel(x0 + x, y0 + y, {half.x, half.y, half.z});
+        }
+}
+
+} // namespace
 
 AdaptiveFilm::AdaptiveFilm(const Tile& area, const RenderSettings& settings, const FilmUnits& units)
     : area_(area), goal_(*settings.refinement),
       measure_(goal_.unit, exact::exp2(settings.picture.exposureEv), settings.picture.transfer),
       noise_(area, measure_), plan_(goal_), aovs_(settings.aovs.size()) {
     color_.reset(area.width(), area.height(), units.color);
-    for (std::size_t a = 0; a < aovs_.size(); ++a)
+    for (std::size_t a = 0; a < aovs_.size(); ++a) {
         aovs_[a].reset(area.width(), area.height(), units.aovs[a]);
+        if (settings.picture.denoise) aovDifferences_.emplace_back(area.width(), area.height());
+    }
 }
 
 void AdaptiveFilm::setLeast(int column, int row, int samples) {
@@ -40,18 +57,39 @@ void AdaptiveFilm::add(const SamplePlan::Part& part, const Film& color, float la
     noise_.add(part.tile, part.batch, color_, color, largest);
     const int x = part.tile.x0 - area_.x0, y = part.tile.y0 - area_.y0;
     color_.add(color, x, y);
-    for (std::size_t a = 0; a < aovs_.size(); ++a) aovs_[a].add(aovs[a], x, y);
+    for (std::size_t a = 0; a < aovs_.size(); ++a) {
+        if (!aovDifferences_.empty()) addDifference(aovs_[a], aovs[a], x, y, aovDifferences_[a]);
+        aovs_[a].add(aovs[a], x, y);
+    }
+}
+
+bool AdaptiveFilm::showsNoise() const {
+    const auto blocks = noise_.blocks();
+    return std::all_of(blocks.begin(), blocks.end(),
+                       [](const NoiseMap::Block& b) { return b.squares < kInfinity; });
+}
+
+Image AdaptiveFilm::difference() const {
+    return imageOf([&](int x, int y) {
+        const Vec3 d = noise_.differenceAt(x, y);
+        return Rgb{d.x, d.y, d.z};
+    });
+}
+
+Image AdaptiveFilm::pastDifferences() const {
+    constexpr double kIndependent = 4; // so much greater is the square where samples know nothing of each other
+    return imageOf([&](int x, int y) {
+        const NoiseMap::Group& g = noise_.group(x, y);
+        const double now = g.halves[0], before = g.doublings < 3 ? kIndependent * now : g.halves[2];
+        return Rgb{static_cast<float>(now / g.pixels), static_cast<float>(before / g.pixels), 0};
+    });
 }
 
 Image AdaptiveFilm::error() const {
-    Image image(area_.width(), area_.height());
-    for (int y = 0; y < area_.height(); ++y)
-        for (int x = 0; x < area_.width(); ++x) {
-            const double squares = noise_.boundSquaresAt(x + area_.x0, y + area_.y0);
-            const auto error = static_cast<float>(std::sqrt(squares / 3));
-            image.setPixel(x, y, {error, error, error});
-        }
-    return image;
+    return imageOf([&](int x, int y) {
+        const auto error = static_cast<float>(std::sqrt(noise_.boundSquaresAt(x, y) / 3));
+        return Rgb{error, error, error};
+    });
 }
 
 void AdaptiveFilm::describe(Stats& stats) const {
@@ -59,6 +97,7 @@ void AdaptiveFilm::describe(Stats& stats) const {
     stats.samplesMin = samples.min;
     stats.samplesMax = samples.max;
     stats.samplesMean = samples.mean;
+    if (goal_.evenDoublings > 0) return;
     stats.error = ErrorStats{.goal = goal_.error,
                              .unit = goal_.unit,
                              .ofWorstBlock = goal_.ofWorstBlock,

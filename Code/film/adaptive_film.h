@@ -36,11 +36,27 @@ public:
 
     const Film& color() const { return color_; }
     const Film& aov(std::size_t number) const { return aovs_[number]; }
+    // Whether all pixels have had a doubling, which shows their noise.
+    bool showsNoise() const;
+    // Return half the difference of the samples of each pixel before its latest doubling and those that it brought,
+    // of the colour and of an AOV: NoiseMap says what it means.
+    Image difference() const;
+    Image& aovDifference(std::size_t number) { return aovDifferences_[number]; }
+    // Returns the mean square of that difference around each pixel, now in r, and two doublings before in g.
+    Image pastDifferences() const;
     // Returns the upper bound of the error of each pixel, RMS over its channels, in all of them.
     Image error() const;
     void describe(Stats& stats) const;
 
 private:
+    template <class Fn> Image imageOf(const Fn& fn) const {
+        Image image(area_.width(), area_.height());
+        for (int y = 0; y < area_.height(); ++y)
+            for (int x = 0; x < area_.width(); ++x)
+                image.setPixel(x, y, fn(x + area_.x0, y + area_.y0));
+        return image;
+    }
+
     Tile area_;
     Refinement goal_;
     ErrorMeasure measure_;
@@ -49,4 +65,5 @@ private:
     std::vector<SamplePlan::Part> parts_; // of the pass
     Film color_;
     std::vector<Film> aovs_;
+    std::vector<Image> aovDifferences_;
 };

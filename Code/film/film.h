@@ -8,6 +8,7 @@
 #include "image/image.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,6 +25,8 @@ public:
         width_ = width, perUnit_ = perUnit;
         sums_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
     }
+    int width() const { return width_; }
+    int height() const { return width_ > 0 ? static_cast<int>(sums_.size()) / width_ : 0; }
     double perUnit() const { return perUnit_; }
 
     void add(int x, int y, Rgb value) {
@@ -75,6 +78,14 @@ public:
     }
 
     const Place& at(int x, int y) const { return sums_[index(x, y)]; }
+    // Returns half the difference of the means of two places, per unit, where both are of as many samples;
+    // else what has the same variance, sqrt(ab) / (a + b) of it. 0 where one of them has no sample.
+    static Vec3d halfDifference(const Place& before, const Place& batch, double perUnit) {
+        if (before.count == 0 || batch.count == 0) return {};
+        const double a = before.count, b = batch.count;
+        const Vec3d apart = before.sum.value() / a - batch.sum.value() / b;
+        return apart * (std::sqrt(a * b) / (a + b)) / perUnit;
+    }
     // The mean of the place's samples, black where there are none, unrounded.
     Vec3d meanAt(int x, int y) const {
         return exactMeanOf(at(x, y));

@@ -10,16 +10,6 @@ constexpr int kReach = 2;
 // Fewer degrees of freedom than these are not told apart.
 constexpr double kLeastFreedom = 3;
 
-// Returns D of two means, per channel, in units of the film: half their difference where both are of as many
-// samples; else what has the same variance, sqrt(ab) / (a + b) of it.
-Vec3d halfDifference(const Film::Place& before, const Film::Place& batch) {
-    if (before.count == 0 || batch.count == 0) return {}; // no sample was finite
-    const double a = before.count, b = batch.count;
-    return (before.sum.value() / a - batch.sum.value() / b) * (std::sqrt(a * b) / (a + b));
-}
-
-float floatSizeOf(double x) { return static_cast<float>(std::fabs(x)); }
-
 // Pixels are coloured as a chessboard: the error is told from those of one colour, and the others decide where
 // samples go. Groups that look good by chance get none, so that what decides is too low in the end.
 constexpr std::size_t kTold = 0;
@@ -64,7 +54,7 @@ NoiseMap::NoiseMap(const Tile& area, const ErrorMeasure& measure)
     const auto pixels =
         static_cast<std::size_t>(area.width()) * static_cast<std::size_t>(area.height());
     groups_.resize(static_cast<std::size_t>(groupColumns_) * static_cast<std::size_t>(groupRows));
-    deviation_.resize(pixels);
+    difference_.resize(pixels);
     squares_.resize(pixels);
     const auto next = [](int x) { return (x / kBlockSide + 1) * kBlockSide; };
     for (int y = area.y0; y < area.y1; y = next(y))
@@ -86,11 +76,11 @@ void NoiseMap::add(const Tile& part, int samples, const Film& before, const Film
         double squares = 0;
         for (int y = area.y0; y < area.y1; ++y)
             for (int x = area.x0; x < area.x1; ++x) {
-                const Vec3d half = halfDifference(before.at(x - area_.x0, y - area_.y0),
-                                                  batch.at(x - part.x0, y - part.y0)) /
-                                   before.perUnit();
+                const Vec3d half = Film::halfDifference(before.at(x - area_.x0, y - area_.y0),
+                                                        batch.at(x - part.x0, y - part.y0),
+                                                        before.perUnit());
                 squares += dot(half, half);
-                deviation_[pixelIndex(x, y)] = {floatSizeOf(half.x), floatSizeOf(half.y), floatSizeOf(half.z)};
+                difference_[pixelIndex(x, y)] = toFloat(half);
             }
         g.halves = {squares, g.halves[0], g.halves[1]};
         ++g.doublings;
@@ -130,9 +120,9 @@ void NoiseMap::update(std::size_t number, const Film& sums) {
     forEachPixel(block, [&](std::size_t at, int x, int y) {
         const Group& g = group(x, y);
         const Vec3d mean = sums.meanAt(x - area_.x0, y - area_.y0);
-        const Vec3 d = deviation_[pixelIndex(x, y)];
-        const auto squareOf = [&](double m, float deviation) {
-            return sqr(measure_.of(m, static_cast<double>(deviation) * toMean));
+        const Vec3 d = difference_[pixelIndex(x, y)];
+        const auto squareOf = [&](double m, float half) {
+            return sqr(measure_.of(m, static_cast<double>(half) * toMean));
         };
         const double squares = squareOf(mean.x, d.x) + squareOf(mean.y, d.y) + squareOf(mean.z, d.z);
         Halves& half = halves[colourOf(x, y)];

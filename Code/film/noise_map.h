@@ -82,6 +82,8 @@ public:
         return static_cast<double>(squares_[pixelIndex(x, y)]) *
                sqr(upperFactor(block.ownSquares, block.ownFourth));
     }
+    // Returns D of the latest doubling of a pixel, per channel: the samples before it minus those that it brought.
+    Vec3 differenceAt(int x, int y) const { return difference_[pixelIndex(x, y)]; }
     double pixels() const { return static_cast<double>(squares_.size()); }
 
     // Returns the factor that makes an upper bound, right in 95 % of all cases, of an estimated error:
@@ -128,6 +130,6 @@ private:
     int groupColumns_;
     std::vector<Group> groups_;
     std::vector<Block> blocks_;
-    std::vector<Vec3> deviation_; // |D| per channel
+    std::vector<Vec3> difference_; // D per channel
     std::vector<float> squares_;
 };

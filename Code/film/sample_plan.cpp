@@ -55,6 +55,9 @@ double boundOf(const Block& b) {
 // The first samples come in doublings too. A pass of one sample is what a picture has at least when its time
 // is over.
 int SamplePlan::batchOf(const Group& g) const {
+    for (int left = goal_.evenDoublings; left > 0; --left)
+        if (const int wanted = goal_.mostSamples >> left; wanted > g.samples) return wanted - g.samples;
+    if (isEven()) return goal_.mostSamples - g.samples;
     const int first = goal_.hasShortPasses() ? 1 : std::min(Refinement::kFirstSamples, goal_.mostSamples) / 2;
     return std::min(g.samples == 0 ? first : g.samples, goal_.mostSamples - g.samples);
 }
@@ -78,6 +81,7 @@ bool SamplePlan::isUnsure(const Block& b) const {
 
 bool SamplePlan::isChosen(const Group& g, const Choice& choice, bool isUnsureBlock) const {
     if (isFull(g)) return false;
+    if (isEven()) return true;
     if (g.samples < g.least || (isUnsureBlock && g.samples < kSamplesToBeSure)) return true;
     return (g.squares > 0 && stepOf(gainOf(g)) > choice.level);
 }
@@ -156,7 +160,14 @@ std::vector<SamplePlan::Part> SamplePlan::next(const NoiseMap& noise) {
     const auto blocks = noise.blocks();
     std::vector<Part> parts;
     double foreseen = 0;
-    if (goal_.ofWorstBlock) {
+    if (isEven()) {
+        for (const Block& b : blocks) {
+            addParts(noise, b, {}, parts);
+            noise.forEachGroup(b.area, [&](const Group& g, const Tile&) {
+                foreseen += static_cast<double>(goal_.mostSamples) * g.pixels - costOf(g);
+            });
+        }
+    } else if (goal_.ofWorstBlock) {
         for (const Block& b : blocks) {
             const double factor = NoiseMap::upperFactor(b.ownSquares, b.ownFourth);
             const Choice choice = choose(noise, {&b, 1}, factor);

@@ -63,6 +63,7 @@ private:
     bool hasGoal() const { return goal_.error.has_value(); }
     // Returns the sum of squared errors that pixels of the goal's error have.
     double wantedSquares(double pixels) const { return goal_.error ? sqr(*goal_.error) * 3 * pixels : 0; }
+    bool isEven() const { return goal_.evenDoublings > 0; }
     bool isFull(const NoiseMap::Group& group) const { return group.samples >= goal_.mostSamples; }
 
     Refinement goal_;

@@ -59,12 +59,15 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
     return stills;
 }
 
-// Returns how many samples share a pixel: the more, the less each has to be the mean of. With a refinement
+// Returns how many samples share a pixel: the more, the less each has to be the mean of. Where errors decide
 // there are as many as are needed, and what filters leave out has to be below any goal.
 float samplesTogether(const RenderSettings& settings) {
     constexpr int kWhenRefined = 256;
     const int samples = settings.picture.samplesPerPixel;
-    return static_cast<float>(settings.refinement ? std::max(samples, kWhenRefined) : samples);
+    const auto& refinement = settings.refinement;
+    if (!refinement) return static_cast<float>(samples);
+    return static_cast<float>(refinement->evenDoublings > 0 ? refinement->mostSamples
+                                                            : std::max(samples, kWhenRefined));
 }
 float footprintScaleOf(const Scene& scene, const RenderSettings& settings, bool hasCheckers) {
     constexpr float kOfPixel = 1.0f;

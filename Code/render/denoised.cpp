@@ -1,158 +1,137 @@
 #include "render/denoised.h"
 
-#include "denoise/denoise.h"
-#include "image/colour.h"
-#include "sample/hash.h"
+#include "base/math.h"
+#include "base/parallel.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace {
 
-// Tells whether one part stands for all, since numbers of objects cannot be averaged.
-bool isOfOnePart(Aov aov) { return aov == Aov::Id; }
+// A place is what is so far around it each way, weighted as two boxes after each other.
+constexpr int kReach = 8, kBoxes = 2;
+// Squares of D fall by so much when samples double: independent ones by 2, those of smooth places by 8.
+constexpr double kLeastGrowth = 2, kMostGrowth = 8;
 
-constexpr std::size_t kParts = 4; // two of each half
+// Errors count by the slope from R to S of what is measured, but of values that are so far apart at least.
+constexpr double kLeastReach = 0x1p-12;
 
-// The parts of a half are one sequence; the halves have a seed each, as samples of one sequence
-// avoid each other and are not independent.
-RenderSettings partOf(const RenderSettings& settings, std::size_t part) {
-    constexpr std::uint32_t kHalfSalt = 0x68616c66u;
-    RenderSettings of = settings;
-    of.picture.denoise = false;
-    of.onlyCodes = false;
-    const int samples = settings.picture.samplesPerPixel, each = samples / static_cast<int>(kParts);
-    of.picture.samplesPerPixel = each;
-    if (part % 2 == 1) of.firstSample = each;
-    if (part >= 2) of.picture.seed = low32(hash(settings.picture.seed, kHalfSalt));
-    for (const Aov aov : {Aov::Albedo, Aov::Normal})
-        if (std::find(of.aovs.begin(), of.aovs.end(), aov) == of.aovs.end())
-            of.aovs.push_back(aov);
-    return of;
-}
+// Sums over channels and places, as the error is measured: of D^2, D H and (S - R)^2, and of D^2 now and
+// two doublings before.
+struct Squares {
+    double noise = 0, kept = 0, change = 0, now = 0, before = 0;
 
-const Image& aovOf(const Picture& picture, Aov aov) {
-    return std::find_if(picture.aovs.begin(), picture.aovs.end(),
-                        [&](const AovImage& one) { return one.aov == aov; })
-        ->image;
-}
-
-// Returns by how much a picture as it is shown changes per change of the linear value.
-// `reach` is how far values around this one are looked at.
-float slopeOf(float value, float reach, float exposure, bool isSrgb) {
-    const auto shown = [&](float v) {
-        return isSrgb ? srgbFromLinear(clampToUnit(v * exposure)) : clampToUnit(v * exposure);
-    };
-    return (shown(value + reach) - shown(value - reach)) / (2 * reach);
-}
-
-// Sums of the squared errors of a block of pixels, to the root of their mean: noise in single
-// estimates is not to decide where the picture is looked at.
-class BlockErrors {
-public:
-    explicit BlockErrors(const Image& squares)
-        : columns_((squares.width() + kSide - 1) / kSide),
-          blocks_(static_cast<std::size_t>(columns_ * ((squares.height() + kSide - 1) / kSide))) {
-        for (int y = 0; y < squares.height(); ++y)
-            for (int x = 0; x < squares.width(); ++x) {
-                const Rgb square = squares.pixel(x, y);
-                Block& block = blocks_[indexOf(x, y)];
-                block.sum += static_cast<double>(square.r) + static_cast<double>(square.g) +
-                             static_cast<double>(square.b);
-                block.count += 3;
-            }
+    Squares& operator+=(const Squares& o) {
+        noise += o.noise, kept += o.kept, change += o.change, now += o.now, before += o.before;
+        return *this;
     }
-    float at(int x, int y) const {
-        const Block& block = blocks_[indexOf(x, y)];
-        return static_cast<float>(std::sqrt(max(block.sum / block.count, 0.0)));
+};
+
+class Blend {
+public:
+    Blend(const HalvedPicture& picture, const Image& past, const ErrorMeasure& measure, const Isa& isa,
+          int threads)
+        : raw_(picture.color), past_(past), measure_(measure), filtered_(denoise(picture, isa, threads)),
+          pool_(threads), width_(raw_.mean.width()), height_(raw_.mean.height()),
+          own_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_)) {}
+
+    DenoisedPicture run() {
+        forEachRow([&](int y) {
+            for (int x = 0; x < width_; ++x) own_[indexOf(x, y)] = squaresAt(x, y);
+        });
+        std::vector<Squares> around = own_;
+        for (int box = 0; box < kBoxes; ++box) sumAround(around);
+
+        DenoisedPicture out{Image(width_, height_)};
+        std::vector<double> errors(static_cast<std::size_t>(height_));
+        forEachRow([&](int y) {
+            double& sum = errors[static_cast<std::size_t>(y)];
+            for (int x = 0; x < width_; ++x) {
+                const Squares &own = own_[indexOf(x, y)], &place = around[indexOf(x, y)];
+                const double q = 1 / (growthOf(place) - 1);
+                const double gain = q * (place.noise - place.kept);
+                const double b = place.change > 0 ? clamp(gain / place.change, 0.0, 1.0) : 0;
+                sum += q * own.noise - 2 * b * (q * own.noise - own.kept) + sqr(b) * own.change;
+                const Rgb raw = raw_.mean.pixel(x, y);
+                out.color.setPixel(x, y, raw + (filteredAt(x, y) - raw) * static_cast<float>(b));
+            }
+        });
+        double sum = 0;
+        for (const double error : errors) sum += error;
+        out.error = std::sqrt(max(sum, 0.0) / (3.0 * width_ * height_));
+        return out;
     }
 
 private:
-    static constexpr int kSide = 8;
-    struct Block {
-        double sum = 0, count = 0;
-    };
+    template <class Fn> void forEachRow(const Fn& fn) {
+        const auto row = [&](std::size_t y, int) { fn(static_cast<int>(y)); };
+        pool_.run(static_cast<std::size_t>(height_), row);
+    }
     std::size_t indexOf(int x, int y) const {
-        return static_cast<std::size_t>(y / kSide) * static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(x / kSide);
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
     }
-    int columns_;
-    std::vector<Block> blocks_;
-};
+    static double growthOf(const Squares& place) {
+        if (!(place.now > 0)) return 2;
+        return clamp(std::sqrt(place.before / place.now), kLeastGrowth, kMostGrowth);
+    }
 
-// Returns the RMSE over pixels and channels of the picture as it is shown, 1 is white.
-double shownError(const Denoised& picture, const SettingsDesc& settings) {
-    constexpr float kLeastReach = 0x1p-12f;
-    const auto exposure = static_cast<float>(exact::exp2(settings.exposureEv));
-    const bool isSrgb = settings.transfer == SettingsDesc::Transfer::Srgb;
-    const BlockErrors errors(picture.squaredError);
-    double sum = 0;
-    for (int y = 0; y < picture.color.height(); ++y)
-        for (int x = 0; x < picture.color.width(); ++x) {
-            const Rgb color = picture.color.pixel(x, y), square = picture.squaredError.pixel(x, y);
-            const float reach = max(errors.at(x, y), kLeastReach / exposure);
-            const auto shown = [&](float value, float squared) {
-                const double slope = slopeOf(value, reach, exposure, isSrgb);
-                return static_cast<double>(squared) * slope * slope;
-            };
-            sum += shown(color.r, square.r) + shown(color.g, square.g) + shown(color.b, square.b);
-        }
-    return std::sqrt(max(sum / (3.0 * static_cast<double>(picture.color.pixels().size())), 0.0));
-}
+    Rgb filteredAt(int x, int y) const {
+        return (filtered_[0].pixel(x, y) + filtered_[1].pixel(x, y)) * 0.5f;
+    }
 
-// Joins the AOVs that were asked for, of all parts.
-std::vector<AovImage> joinedAovs(std::array<Picture, kParts>& parts,
-                                 const RenderSettings& settings) {
-    std::vector<AovImage> joined;
-    for (std::size_t a = 0; a < settings.aovs.size(); ++a) {
-        AovImage& first = parts[0].aovs[a];
-        const float share = settings.aovs[a] == Aov::Samples ? 1.0f : 1.0f / kParts;
-        if (!isOfOnePart(first.aov))
-            for (std::size_t i = 0; i < first.image.pixels().size(); ++i) {
-                Rgb sum = first.image.pixels()[i];
-                for (std::size_t part = 1; part < kParts; ++part)
-                    sum = sum + parts[part].aovs[a].image.pixels()[i];
-                first.image.pixels()[i] = sum * share;
+    Squares squaresAt(int x, int y) const {
+        const Rgb r = raw_.mean.pixel(x, y), d = raw_.difference.pixel(x, y);
+        const Rgb f = filtered_[0].pixel(x, y), g = filtered_[1].pixel(x, y);
+        Squares sum;
+        const auto add = [&](double raw, double half, double first, double second) {
+            const double change = (first + second) / 2 - raw, left = (first - second) / 2;
+            const double reach = max(std::fabs(change) / 2, kLeastReach);
+            const double slope = measure_.of(raw + change / 2, reach) / reach;
+            sum.noise += sqr(slope * half);
+            sum.kept += sqr(slope) * half * left;
+            sum.change += sqr(slope * change);
+        };
+        add(r.r, d.r, f.r, g.r), add(r.g, d.g, f.g, g.g), add(r.b, d.b, f.b, g.b);
+        const double all = d.r * d.r + d.g * d.g + d.b * d.b;
+        const double scale = all > 0 ? sum.noise / all : 0; // of how D counts here
+        const Rgb past = past_.pixel(x, y);
+        sum.now = past.r * scale, sum.before = past.g * scale;
+        return sum;
+    }
+
+    // Every place becomes the sum of those up to kReach away in its row, then in its column.
+    void sumAround(std::vector<Squares>& places) {
+        std::vector<Squares> rows(places.size());
+        forEachRow([&](int y) {
+            for (int x = 0; x < width_; ++x)
+                for (int i = std::max(x - kReach, 0); i <= std::min(x + kReach, width_ - 1); ++i)
+                    rows[indexOf(x, y)] += places[indexOf(i, y)];
+        });
+        forEachRow([&](int y) {
+            for (int x = 0; x < width_; ++x) {
+                Squares sum;
+                for (int j = std::max(y - kReach, 0); j <= std::min(y + kReach, height_ - 1); ++j)
+                    sum += rows[indexOf(x, j)];
+                places[indexOf(x, y)] = sum;
             }
-        joined.push_back(std::move(first));
+        });
     }
-    return joined;
-}
+
+    const HalvedImage& raw_;
+    const Image& past_;
+    const ErrorMeasure& measure_;
+    std::array<Image, 2> filtered_;
+    ThreadPool pool_;
+    int width_, height_;
+    std::vector<Squares> own_;
+};
 
 } // namespace
 
-Picture renderDenoised(const Scene& scene, const RenderSettings& settings,
-                       const RenderControl& control, Stats& stats) {
-    std::array<Picture, kParts> parts;
-    std::array<HalfPicture, 2> halves;
-    for (std::size_t p = 0; p < kParts; ++p) {
-        const auto progress = [&](double done) {
-            control.progress((static_cast<double>(p) + done) / kParts);
-        };
-        RenderControl partControl = control;
-        if (control.progress) partControl.progress = progress;
-        parts[p] = render(scene, partOf(settings, p), partControl, stats);
-        // What is done of a picture that was stopped is not filtered.
-        if (!parts[p].finished) {
-            parts[0].aovs.resize(settings.aovs.size());
-            parts[0].finished = false;
-            return std::move(parts[0]);
-        }
-        halves[p / 2][p % 2] = {parts[p].color, aovOf(parts[p], Aov::Albedo),
-                                aovOf(parts[p], Aov::Normal)};
-    }
-    // Errors above white do not show, but one sample of it could be more than all others.
-    constexpr float kBrightest = 2;
-    const auto exposure = static_cast<float>(exact::exp2(settings.picture.exposureEv));
-    Denoised denoised = denoise(halves, kBrightest / exposure, *settings.isa, settings.threads);
-    const int samplesOfPart = settings.picture.samplesPerPixel / static_cast<int>(kParts);
-    stats.samplesMin = stats.samplesMean = stats.samplesMax =
-        static_cast<double>(kParts) * samplesOfPart;
-    stats.denoisedError = shownError(denoised, settings.picture);
-    Picture picture;
-    picture.aovs = joinedAovs(parts, settings);
-    picture.color = std::move(denoised.color);
-    picture.finished = true;
-    return picture;
+DenoisedPicture denoisedPicture(const HalvedPicture& picture, const Image& past,
+                                const ErrorMeasure& measure, const Isa& isa, int threads) {
+    return Blend(picture, past, measure, isa, threads).run();
 }

@@ -51,7 +51,7 @@ public:
             stats.nanSamples += worker.nanSamples;
         }
         picture.codes = std::move(color_->codes());
-        picture.color = pixelsOf(std::move(color_->image()), false);
+        picture.color = denoised_ ? std::move(*denoised_) : pixelsOf(std::move(color_->image()), false);
         for (std::size_t i = 0; i < aovs_.size(); ++i) {
             const Aov aov = settings_.aovs[i];
             picture.aovs.push_back({aov, pixelsOf(std::move(aovs_[i]), aov == Aov::Id)});
@@ -97,12 +97,7 @@ private:
     bool renderPasses(ThreadPool& pool, std::vector<TileWorker>& workers,
                       const RenderControl& control, Stats& stats) {
         AdaptiveFilm film(area_, settings_, sampler_.units());
-        const ThinPlaces thin(sampler_.context().scene, settings_.picture.width,
-                              settings_.picture.height, sampler_.reach());
-        static_assert(ThinPlaces::kSide == NoiseMap::kGroupSide);
-        for (int row = 0; row < thin.rows(); ++row)
-            for (int column = 0; column < thin.columns(); ++column)
-                film.setLeast(column, row, thin.samples(column, row));
+        if (settings_.refinement->evenDoublings == 0) sampleThinPlaces(film);
         double told = 0; // progress never falls, though the work ahead may turn out to be more
         double secondsPerSample = 0;
         std::atomic<bool> allWhole = true;
@@ -139,7 +134,35 @@ private:
             else
                 writeAov(film.aov(a), a, 0, 0);
         film.describe(stats);
+        if (settings_.picture.denoise && allWhole && film.showsNoise()) denoise(film, stats);
         return allWhole;
+    }
+
+    void sampleThinPlaces(AdaptiveFilm& film) const {
+        const ThinPlaces thin(sampler_.context().scene, settings_.picture.width,
+                              settings_.picture.height, sampler_.reach());
+        static_assert(ThinPlaces::kSide == NoiseMap::kGroupSide);
+        for (int row = 0; row < thin.rows(); ++row)
+            for (int column = 0; column < thin.columns(); ++column)
+                film.setLeast(column, row, thin.samples(column, row));
+    }
+
+    void denoise(AdaptiveFilm& film, Stats& stats) {
+        const auto guide = [&](Aov aov) {
+            const auto at = std::find(settings_.aovs.begin(), settings_.aovs.end(), aov);
+            const auto number = static_cast<std::size_t>(at - settings_.aovs.begin());
+            return HalvedImage{pixelsOf(aovs_[number], false), pixelsOf(film.aovDifference(number), false)};
+        };
+        const HalvedPicture halves{
+            {pixelsOf(color_->image(), false), pixelsOf(film.difference(), false)},
+            guide(Aov::Albedo),
+            guide(Aov::Normal)};
+        const ErrorMeasure measure(settings_.refinement->unit, exact::exp2(settings_.picture.exposureEv),
+                                   settings_.picture.transfer);
+        DenoisedPicture picture = denoisedPicture(halves, pixelsOf(film.pastDifferences(), false), measure,
+                                                  *settings_.isa, settings_.threads);
+        denoised_ = std::move(picture.color);
+        stats.denoisedError = picture.error;
     }
 
     void writeAov(const Film& film, std::size_t number, int x, int y) {
@@ -160,8 +183,7 @@ private:
             paint(tile, worker);
             return true;
         }
-        if (!sampler_.trace(tile, settings_.firstSample,
-                            settings_.picture.samplesPerPixel, worker, stop)) return false;
+        if (!sampler_.trace(tile, 0, settings_.picture.samplesPerPixel, worker, stop)) return false;
         worker.color.writeMeans(worker.tile, 0, 0);
         paint(tile, worker);
         const Tile to = onCanvas(tile);
@@ -215,12 +237,32 @@ private:
     std::vector<Tile> tiles_;
     std::optional<Canvas> color_; // of places, as the aovs
     std::vector<Image> aovs_;
+    std::optional<Image> denoised_; // of pixels
 };
+
+// What denoise() looks at besides the colour is rendered as well, and the noise is told from doublings.
+RenderSettings settingsToDenoise(RenderSettings settings) {
+    for (const Aov aov : {Aov::Albedo, Aov::Normal})
+        if (std::find(settings.aovs.begin(), settings.aovs.end(), aov) == settings.aovs.end())
+            settings.aovs.push_back(aov);
+    if (settings.refinement) return settings;
+    SettingsDesc& picture = settings.picture;
+    settings.refinement = Refinement{.mostSamples = picture.samplesPerPixel, .evenDoublings = 3};
+    // Samples in cells are spread over each half, as those of a part of all cells say nothing of the others.
+    if (picture.sampler == SettingsDesc::Sampler::Stratified || picture.sampler == SettingsDesc::Sampler::Grid) {
+        picture.samplesPerPixel = std::max(1, picture.samplesPerPixel / 2);
+        settings.refinement->evenDoublings = 1;
+    }
+    return settings;
+}
 
 } // namespace
 
 Picture render(const Scene& scene, const RenderSettings& settings, const RenderControl& control,
                Stats& stats) {
-    if (settings.picture.denoise) return renderDenoised(scene, settings, control, stats);
-    return Renderer(scene, settings).run(control, stats);
+    if (!settings.picture.denoise) return Renderer(scene, settings).run(control, stats);
+    const RenderSettings all = settingsToDenoise(settings);
+    Picture picture = Renderer(scene, all).run(control, stats);
+    picture.aovs.resize(settings.aovs.size());
+    return picture;
 }

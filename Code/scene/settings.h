@@ -29,7 +29,8 @@ struct Switches {
 // full scale. Linear: its linear values with the exposure. Relative: those against what is right.
 enum class ErrorUnit { Display, Linear, Relative };
 
-// --error, --time, --passes: samples where they are needed, pass by pass, until an end is reached.
+// --error, --time, --passes: samples where they are needed, pass by pass, until an end is reached. --denoise
+// alone: as many of every pixel, in passes whose differences show the noise.
 struct Refinement {
     // Samples of every pixel before it is decided which get more; samplers that spread a known number of
     // samples spread so many, again and again.
@@ -41,6 +42,8 @@ struct Refinement {
     bool hasTime = false;        // the caller's clock ends it
     std::optional<int> passes = {}; // it has so many
     int mostSamples = 65536;     // per pixel, at least 2
+    // Not 0: every pixel gets mostSamples in so many doublings, and errors decide nothing.
+    int evenDoublings = 0;
 
     // The end may come at any time: the passes are short.
     bool hasShortPasses() const { return hasTime || passes; }
@@ -61,8 +64,6 @@ struct RenderSettings {
     // Picture::codes is to take the place of Picture::color where it can: all that is wanted of it
     // is a file of 8 bits, with the exposure as it is.
     bool onlyCodes = false;
-    // The number of the first sample of each pixel, of pictures that are part of one.
-    int firstSample = 0;
     // Off: every step is done for every scene, needed or not (the yardstick of T17 and of timings).
     bool specialise = true;
     std::string textureFolder; // --textures DIR; searched after the scene's own folder

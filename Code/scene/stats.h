@@ -83,7 +83,7 @@ struct Stats {
         featuresSkipped; // skipped: "dof: aperture_radius is 0"
     double samplesMin = 0, samplesMean = 0, samplesMax = 0;
     std::optional<ErrorStats> error;        // with --error, --time, --passes
-    std::optional<double> denoisedError;    // with --denoise: RMSE of the picture as it is shown
+    std::optional<double> denoisedError;    // with --denoise: RMSE of what is left, if the noise is known
     std::uint64_t nanSamples = 0;           // samples dropped because a value was not finite
     std::uint64_t degeneratePrimitives = 0; // triangles without area, left out of the trees
 };

@@ -97,7 +97,15 @@ run 0 many.txt b.pfm --denoise --stats=json
 check 'denoised: its error in the last line' has err 'denoised, estimated error'
 check 'denoised: its error in the statistics' has out '"error_estimate_denoised":0.'
 expect 'denoised: too few samples' 1 'needs 4 or more samples per pixel, not 2' many.txt b.pfm --denoise --spp 2
-expect 'denoised: an error goal' 1 'do not go together' many.txt b.pfm --denoise --error 0.1
+run 0 many.txt a.pfm --denoise --error 0.02 --threads 1 --stats=json
+check 'denoised: an error goal has its own error' has out '"error_estimate":0.'
+check 'denoised: and that of what is left' has out '"error_estimate_denoised":0.'
+run 0 many.txt b.pfm -q --denoise --error 0.02 --threads 3 --kernel scalar
+check 'denoised: an error goal, other threads and lanes' cmp a.pfm b.pfm
+run 0 many.txt a.pfm --denoise --passes 1
+check 'denoised: one pass shows no noise' has err 'is not denoised'
+run 0 many.txt b.pfm -q --no-denoise --passes 1
+check 'denoised: one pass is left as it is' cmp a.pfm b.pfm
 expect 'denoised: normals' 1 'no use with the integrator normal' many.txt b.pfm --denoise --integrator normal
 run 0 copy.txt b.pfm -q --integrator normal
 run 0 copy.txt c.pfm -q --integrator normal --no-denoise
