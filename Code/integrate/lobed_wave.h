@@ -2,6 +2,7 @@
 // that are alike.
 #pragma once
 
+#include "integrate/integrator.h"
 #include "integrate/lit_wave.h"
 #include "integrate/path_numbers.h"
 
@@ -178,6 +179,7 @@ private:
         lobes.turned |= 1u << i;
     }
 
+protected:
     waves::Boundary boundaries_[kPoints];
     FootprintBlock footprints_;
 };

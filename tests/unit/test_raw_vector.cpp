@@ -22,7 +22,7 @@ TEST(raw_vectors_keep_what_they_hold) {
     moved.resize(10), moved.shrink_to_fit();
     CHECK_EQUAL(std::accumulate(moved.begin(), moved.end(), 0u), 45u * 7);
     CHECK(moved == (std::vector<std::uint32_t>{0, 7, 14, 21, 28, 35, 42, 49, 56, 63}));
-    CHECK(!(moved == std::vector<std::uint32_t>(10)) && !(moved == std::vector<std::uint32_t>()));
+    CHECK(!(moved == std::vector<std::uint32_t>(10)));
 }
 
 // New elements are left as the memory is, those that are asked for are not; also where the type
