@@ -17,7 +17,8 @@ struct Rule {
     std::uint64_t (*done)(const Stats&); // of the same things
 };
 
-// With an error goal: what other places would have if all had as many samples as the one with most.
+// Returns how many more samples there would be, with an error goal, if all places had as many as the one
+// with most.
 std::uint64_t samplesOfSettled(const Stats& s) {
     if (!s.error || !(s.samplesMean > 0)) return 0;
     const double places = static_cast<double>(s.rays.camera) / s.samplesMean;

@@ -206,9 +206,9 @@ private:
     std::array<Planes, 2> colors_{planesOf(width_, height_, DenoisePlanes::kOutside),
                                   planesOf(width_, height_, DenoisePlanes::kOutside)};
     std::array<Plane, 2> trusts_{Plane(width_, height_, 0), Plane(width_, height_, 0)};
-    // Of both halves.
+    // These hold for both halves.
     Planes rooms_{planesOf(width_, height_, 0)}, ownRooms_{rooms_};
-    // Of the half that is filtered.
+    // These hold for the half that is filtered.
     Planes albedos_{rooms_}, normals_{rooms_};
     Plane albedoScale_{width_, height_, 0}, normalScale_{albedoScale_};
 };
