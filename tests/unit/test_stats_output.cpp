@@ -128,7 +128,7 @@ TEST(stats_table_is_aligned_and_complete) {
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
 }
 
-// Of what was skipped, only what there was; with the seconds where they are known.
+// What was skipped is listed if there was any of it, with the seconds where they are known.
 TEST(stats_table_says_what_was_skipped) {
     const std::string table = statsTable(example());
     for (const char* part : {"rays of empty tiles                  500 rays (50.0 %)\n",
