@@ -27,7 +27,7 @@ namespace srgb {
 struct DecodeNode {
     double value, inverse;
 };
-constexpr double kDecodeThreshold = 0.04045, kEncodeThreshold = 0.0031308;
+inline constexpr double kDecodeThreshold = 0.04045, kEncodeThreshold = 0.0031308;
 std::span<const DecodeNode, 256> decodeNodes();
 } // namespace srgb
 

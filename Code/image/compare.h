@@ -20,7 +20,7 @@ double ssim(const Image& a, const Image& b);
 
 // LDR-FLIP (Andersson et al. 2020): what a viewer notices who flips between both, 0 to 1, mean over
 // the pixels. The default is a 0.7 m wide 3840-pixel screen at 0.7 m.
-constexpr double kFlipPixelsPerDegree = 0.7 * (3840 / 0.7) * 3.14159265358979323846 / 180;
+inline constexpr double kFlipPixelsPerDegree = 0.7 * (3840 / 0.7) * 3.14159265358979323846 / 180;
 double flip(const Image& reference, const Image& test, double pixelsPerDegree);
 double flip(const Image& reference, const Image& test); // kFlipPixelsPerDegree
 

@@ -21,13 +21,13 @@ enum ExrFlag : std::uint32_t {
     kExrDeep = 0x800,
     kExrMultiPart = 0x1000
 };
-constexpr std::size_t kExrShortName = 31, kExrLongName = 255;
+inline constexpr std::size_t kExrShortName = 31, kExrLongName = 255;
 
 enum ExrPixelType : std::uint32_t { kExrUint = 0, kExrHalf = 1, kExrFloat = 2 };
 
 // The compressions that are read; others have larger numbers.
 enum ExrCompression : unsigned { kExrNone, kExrRle, kExrZips, kExrZip, kExrPiz };
-constexpr std::size_t kExrZipLines = 16; // in a block
+inline constexpr std::size_t kExrZipLines = 16; // in a block
 
 struct ExrChannel {
     std::string name;

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-constexpr std::size_t kJpegSide = 8; // a block has 8 x 8 samples, or as many coefficients
+inline constexpr std::size_t kJpegSide = 8; // a block has 8 x 8 samples, or as many coefficients
 using JpegBlock = std::array<std::int16_t, kJpegSide * kJpegSide>; // row by row
 
 // This says where the coefficients of a block are, in the order of the file (figure A.6).
@@ -80,7 +80,7 @@ JpegFrame readJpegFrame(Bytes segment, bool isProgressive, std::size_t left,
 
 // These read the tables of a DQT and of a DHT segment (B.2.4); each replaces the one of the same
 // number. They fail when the segment is too short or its tables cannot be.
-constexpr std::size_t kJpegTables = 4;
+inline constexpr std::size_t kJpegTables = 4;
 struct JpegTables {
     std::array<JpegSteps, kJpegTables> steps;
     std::array<JpegHuffman, kJpegTables> dc, ac;

@@ -19,7 +19,7 @@ constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '
 // c the one above a; 0 outside of the picture. Pixels have 1, 2, 3, 4, 6 or 8 bytes, 1 where they
 // are smaller; `above` is as long as the row, and all zero for the first one.
 enum class PngFilter : std::uint8_t { None, Sub, Up, Average, Paeth };
-constexpr std::size_t kPngFilterCount = 5;
+inline constexpr std::size_t kPngFilterCount = 5;
 
 // Writes the row to `out` with the filter whose bytes, as signed numbers without their signs, have
 // the smallest sum (12.7; of equal sums the first filter). Returns which.

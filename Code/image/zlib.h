@@ -38,7 +38,7 @@ constexpr std::array<std::uint8_t, 4> zlibEnd(std::uint32_t adler) {
 }
 
 // One byte of a deflate stream can stand for at most this many bytes (a match of 258 in two bits).
-constexpr std::size_t kMaxInflation = 1032;
+inline constexpr std::size_t kMaxInflation = 1032;
 // The unpacked bytes, exactly `size` of them; bytes after the stream are ignored. The caller checks
 // `size` against kMaxInflation before: it is allocated at once. Fails (ErrorKind::Input) with
 // `name` when the stream is broken, too short, too long or fails its checksum.

@@ -9,7 +9,7 @@
 
 LANES_BEGIN
 
-constexpr unsigned kEvery = (1u << W) - 1; // a bit for each lane
+inline constexpr unsigned kEvery = (1u << W) - 1; // a bit for each lane
 
 using Lane = SurfaceBlock::Lane;
 

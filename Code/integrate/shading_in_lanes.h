@@ -72,6 +72,6 @@ void whittedAtPoints(const PathLights& lights, std::span<LampQueue> lamps, const
             sendToLamps);
 }
 
-constexpr ShadingKernel kShading{seePoints, scatterBlock, whittedAtPoints, skyParts};
+inline constexpr ShadingKernel kShading{seePoints, scatterBlock, whittedAtPoints, skyParts};
 
 LANES_END

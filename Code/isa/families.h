@@ -17,10 +17,10 @@
 
 LANES_BEGIN
 
-constexpr TriangleKernel kTriangles{closest, closestFromPoint, any, anyFromPoint};
-constexpr SolidKernel kSolids{closestSolids, anySolids, nearerInBox};
-constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
-constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
+inline constexpr TriangleKernel kTriangles{closest, closestFromPoint, any, anyFromPoint};
+inline constexpr SolidKernel kSolids{closestSolids, anySolids, nearerInBox};
+inline constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
+inline constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
 
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(), const ShadingKernel* shading) {

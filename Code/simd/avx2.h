@@ -9,7 +9,7 @@
 
 LANES_BEGIN
 
-constexpr int W = 8;
+inline constexpr int W = 8;
 
 struct Mask {
     __m256 v;

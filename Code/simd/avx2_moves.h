@@ -149,7 +149,7 @@ inline unsigned spread(unsigned lowest, unsigned places) { return _pdep_u32(lowe
 
 // --- columns of rows ---
 
-constexpr bool kPairsPay = true;
+inline constexpr bool kPairsPay = true;
 
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     const auto rowsFrom = [&](int first) -> __m256 { // row 4 i + first in half i
@@ -254,7 +254,7 @@ inline Doubles powersOfTwo(Ints k) {
 
 // --- bits of Sobol numbers ---
 
-constexpr std::size_t kSobolLanes = 8;
+inline constexpr std::size_t kSobolLanes = 8;
 
 // --- lanes of two in turn ---
 

@@ -10,7 +10,7 @@
 
 LANES_BEGIN
 
-constexpr int W = 16;
+inline constexpr int W = 16;
 
 struct Mask {
     __mmask16 v;

@@ -152,7 +152,7 @@ inline unsigned spread(unsigned lowest, unsigned places) { return _pdep_u32(lowe
 
 // --- columns of rows ---
 
-constexpr bool kPairsPay = true; // see accel/kernels/solids_pairs.h
+inline constexpr bool kPairsPay = true; // see accel/kernels/solids_pairs.h
 
 // Four numbers that follow each other at row[i], in lane i of four registers.
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
@@ -286,7 +286,7 @@ inline Doubles powersOfTwo(Ints k) {
 
 // --- bits of Sobol numbers ---
 
-constexpr std::size_t kSobolLanes = 16;
+inline constexpr std::size_t kSobolLanes = 16;
 
 // --- lanes of two in turn ---
 

@@ -165,7 +165,7 @@ inline unsigned spread(unsigned lowest, unsigned places) {
 
 // --- columns of rows ---
 
-constexpr bool kPairsPay = false; // permutations take a store and many loads
+inline constexpr bool kPairsPay = false; // permutations take a store and many loads
 
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     for (int half = 0; half < 2; ++half) {
@@ -275,7 +275,7 @@ inline Doubles powersOfTwo(Ints k) {
 
 // --- bits of Sobol numbers ---
 
-constexpr std::size_t kSobolLanes = 4;
+inline constexpr std::size_t kSobolLanes = 4;
 
 // --- lanes of two in turn ---
 

@@ -91,7 +91,7 @@ struct LevelPlaces {
 inline LevelPlaces levelsOf(const Doubles& width, int levels) {
     const Doubles one(1.0),
         held = min(width, powersOfTwo(Ints(static_cast<std::uint32_t>(levels - 1))));
-    const Ints power = plus(shiftedRight<23>(bitsOf(held.toFloats())), 0u - 127);
+    const Ints power = plus(shiftedRight<23>(bitsOf(held.toFloats())), ~126u);
     // What rounding has brought to the next power has nothing of the coarser one.
     return {power, max(held / powersOfTwo(power) - one, Doubles(0.0)).toFloats()};
 }

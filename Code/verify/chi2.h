@@ -50,7 +50,7 @@ struct Result {
     std::size_t cells;
 };
 
-constexpr std::size_t kRings = 24, kSectors = 24;
+inline constexpr std::size_t kRings = 24, kSectors = 24;
 
 // `sample()` returns a direction, or none (then the density's integral is below 1 by its part);
 // `density(Vec3)` is per steradian.

@@ -11,7 +11,7 @@
 
 namespace light_questions {
 
-constexpr std::size_t kPoints = 64, kAnswers = 56;
+inline constexpr std::size_t kPoints = 64, kAnswers = 56;
 
 struct Questions {
     std::uint32_t kind;

@@ -8,8 +8,8 @@
 
 namespace lobe_op {
 
-constexpr std::size_t kPoints = 16; // as many as the widest registers have
-constexpr std::size_t kResults = 34;
+inline constexpr std::size_t kPoints = 16; // as many as the widest registers have
+inline constexpr std::size_t kResults = 34;
 
 struct Points {
     alignas(64) float numbers[kLobeNumbers][kPoints], eta[kPoints];

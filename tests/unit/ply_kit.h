@@ -17,7 +17,7 @@
 
 namespace ply_kit {
 
-constexpr std::array kFormats{PlyFormat::Ascii, PlyFormat::LittleEndian, PlyFormat::BigEndian};
+inline constexpr std::array kFormats{PlyFormat::Ascii, PlyFormat::LittleEndian, PlyFormat::BigEndian};
 
 // Writes the data of a file in any format: the test's own idea of what the bytes are.
 class Body {

@@ -7,7 +7,7 @@
 
 namespace simd_ops {
 
-constexpr std::size_t kNumbers = 16; // as many as the widest registers have
+inline constexpr std::size_t kNumbers = 16; // as many as the widest registers have
 
 // What operations are given: as many numbers of each kind as there are in the widest registers.
 struct Numbers {

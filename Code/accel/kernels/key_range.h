@@ -14,7 +14,7 @@ LANES_BEGIN
 inline Floats nextUp(Floats x) { return x + x * Floats(0x1.1p-24f); }
 inline Floats nextDown(Floats x) { return x - x * Floats(0x1.1p-24f); }
 
-constexpr int kMostSteps = 16; // 3 are the most that random rays took
+inline constexpr int kMostSteps = 16; // 3 are the most that random rays took
 
 // The largest key with t >= tMax; 0 for rays without an end, infinite for those that end at once.
 inline Floats keyAbove(Floats tMax, Floats dz) {

@@ -15,9 +15,9 @@ namespace kernels::build {
 constexpr std::uint32_t kSmallLeaf = 4;
 // The leaves of a further split of what fits into one must have no more than this part of its area:
 // they take two places of nodes, and rays as much time for few triangles as for many.
-constexpr float kWorthwhile = 0.65f;
+inline constexpr float kWorthwhile = 0.65f;
 // What leaves have of boxes.
-constexpr int kSingle = 1;
+inline constexpr int kSingle = 1;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr std::uint32_t kHalvingDepth = kMaxTreeDepth - 34;
 

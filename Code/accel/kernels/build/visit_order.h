@@ -15,7 +15,7 @@ inline float coverOf(float triangles, float halfArea) {
     return cover >= 0 ? cover : 0; // NaN
 }
 // For leaves, where it is below 1: n triangles have n times the area of their box at most.
-constexpr float kCoverUnit = 1.0f / 255;
+inline constexpr float kCoverUnit = 1.0f / 255;
 
 // What is below a node, as a ray sees it that enters its box.
 struct Prospect {
