@@ -111,7 +111,7 @@ void addFeatures(Table& table, const Stats& stats) {
         table.line((i == 0 ? "skipped  " : "         ") + stats.featuresSkipped[i]);
 }
 
-// Only what was skipped: "12 345  rays (30.1 %, about 0.120 s)".
+// Adds what was skipped, and nothing else: "12 345  rays (30.1 %, about 0.120 s)".
 void addSkippedWork(Table& table, const Stats& stats) {
     table.heading("skipped work");
     bool isAny = false;

@@ -1,7 +1,7 @@
 // denoisedPicture(): of each place of a picture as much of what denoise() makes of it as brings it nearest to
 // the true one, and how near that is.
 //
-// With R the mean of both halves, D half their difference, and F and G the filtered halves, S = (F + G) / 2
+// R is the mean of both halves, D half their difference, and F and G are the filtered halves; S = (F + G) / 2
 // is the filtered picture and H = (F - G) / 2. The mean square of R's error is V = q D^2, where
 // q = 1 / (2^theta - 1) (see film/noise_map.h). How the filter changes D to H shows how it changes R's error:
 // the product of that error and of what is left of it in S has the mean K = D H where halves are independent,

@@ -240,7 +240,7 @@ private:
     std::optional<Image> denoised_; // of pixels
 };
 
-// What denoise() looks at besides the colour is rendered as well, and the noise is told from doublings.
+// Returns settings that render what denoise() looks at besides the colour as well, and the noise by doublings.
 RenderSettings settingsToDenoise(RenderSettings settings) {
     for (const Aov aov : {Aov::Albedo, Aov::Normal})
         if (std::find(settings.aovs.begin(), settings.aovs.end(), aov) == settings.aovs.end())

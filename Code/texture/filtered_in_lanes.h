@@ -82,8 +82,8 @@ inline void holdInside(Doubles& middle, Doubles& along, Doubles& across) {
     along = along * part, across = across * part;
 }
 
-// Which two levels means over so many texels are taken from, and what part of them from the coarser
-// one. The logarithm is taken as straight between powers of two.
+// LevelPlaces says from which two levels means over so many texels are taken, and what part of them
+// from the coarser one. The logarithm is taken as straight between powers of two.
 struct LevelPlaces {
     Ints finer;
     Floats coarser;

@@ -139,7 +139,7 @@ TEST(stats_table_says_what_was_skipped) {
     CHECK(statsTable({}).find("skipped work\n  none\n") != std::string::npos);
 }
 
-// With an error goal: 1,000 samples are 100 places with 10 each; with 64 each they would have 6,400.
+// The 1,000 samples of a picture with an error goal are 100 places with 10 each; with 64 each they would have 6,400.
 TEST(stats_of_settled_samples) {
     Stats stats = example();
     stats.samplesMin = 4, stats.samplesMean = 10, stats.samplesMax = 64;
